@@ -1,0 +1,1 @@
+"""Simulation-based temporal projection for everyday robot manipulation."""

@@ -1,0 +1,77 @@
+"""One record for each thing: its name, class, shape and quantities, from the scene to the query.
+
+A ``Thing`` is made when the scene is composed and travels inside the log, so that recognition,
+containment, rendering and logs of other origin share it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
+BoolArray = npt.NDArray[np.bool_]
+Triple = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
+
+GEOM_TYPES = ("plane", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh")
+"""Convex primitives, with MuJoCo's names and size conventions (half extents)."""
+
+IDENTITY: Quaternion = (1.0, 0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Geom:
+    """One convex solid in the frame of its thing."""
+
+    type: str
+    """One of ``GEOM_TYPES``."""
+    size: Triple = (0.0, 0.0, 0.0)
+    """MuJoCo's size parameters [m]: radius; radius and half length; half extents. Unused for a mesh."""
+    position: Triple = (0.0, 0.0, 0.0)
+    """Centre in the thing's frame [m]."""
+    orientation: Quaternion = IDENTITY
+    """Unit quaternion (w, x, y, z) in the thing's frame."""
+    vertices: tuple[Triple, ...] = ()
+    """Vertices of a convex mesh in the geom's frame [m]; empty for primitives."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Shape:
+    """A rigid shape: a union of convex solids. Its cavities follow from it."""
+
+    geoms: tuple[Geom, ...] = ()
+    """The convex solids; empty for a whole that consists of its parts."""
+    colour: tuple[float, float, float, float] = (0.7, 0.7, 0.7, 1.0)
+    """Red, green, blue, alpha, each 0..1, for pictures only."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Thing:
+    """What is known of one thing when the run starts."""
+
+    name: str
+    """``egg1``, ``hand1/left_finger``, ``eggshell1/piece3``."""
+    kind: str
+    """Most specific class, ``Egg``."""
+    shape: Shape = Shape()
+    """Geometry in the thing's own frame."""
+    position: Triple = (0.0, 0.0, 0.0)
+    """Initial origin of the thing's frame in the world [m]."""
+    orientation: Quaternion = IDENTITY
+    """Initial unit quaternion (w, x, y, z) in the world."""
+    mass: float = 0.0
+    """Mass with all parts [kg]; of a fixed thing it has no effect and may be 0."""
+    whole: str | None = None
+    """The thing this is a part of, if any."""
+    roles: frozenset[str] = frozenset()
+    """Classes that recognition and phenomena go by: ``Gripper``, ``Container``, ``Breakable``, ``Stuff``,
+    ``Piece`` (appears when its whole breaks), ``Floor`` ..."""
+    fixed: bool = False
+    """True for what never moves (floor, table, wall)."""
+    quantities: Mapping[str, float] = field(default_factory=dict[str, float])
+    """Named quantities in SI units: friction, breakingForce, ..."""
