@@ -84,7 +84,7 @@ if ! .venv/bin/python -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/d
 fi
 .venv/bin/python -c 'import pip' 2>/dev/null || .venv/bin/python -m ensurepip --upgrade >/dev/null
 say "installing the Python packages of $lock into .venv (once; some minutes at most)"
-pip() { .venv/bin/python -m pip --quiet --disable-pip-version-check "$@" >&2; }
+pip() { .venv/bin/python -m pip -qq --disable-pip-version-check "$@" >&2; }
 pip install --require-hashes --no-deps -r "$lock"
 pip install --no-deps --no-build-isolation -e .
 wanted "$lock" >".venv/.set-up-$part"
