@@ -1,0 +1,199 @@
+"""A run in symbols: which fluents held and which events occurred, over which right-open intervals.
+
+Instances are maximal: one fluent or event that goes on over successive ticks is one fact, so the pair of
+term and interval names it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from itertools import groupby
+from typing import Any, Literal, cast
+
+from prolepsis.domain import Domain
+from prolepsis.errors import InputError
+from prolepsis.terms import Term, Value
+
+Kind = Literal["fluent", "event"]
+Argument = str | int | float
+Evidence = Mapping[str, "float | str"]
+
+
+def _no_evidence() -> dict[str, float | str]:
+    return {}
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Fact:
+    """One fluent that held, or one event that occurred, over one interval."""
+
+    kind: Kind
+    """``"fluent"`` for a condition, ``"event"`` for what happens."""
+    type: str
+    """Lower camel case: ``contacts``, ``closingGripper``."""
+    args: tuple[Argument, ...] = ()
+    """Names of things, or numbers."""
+    start: float
+    """First instant [s]."""
+    end: float
+    """First instant no longer [s]."""
+    evidence: Evidence = field(default_factory=_no_evidence)
+    """Measured numbers (SI units) and names behind the fact: ``{"level": "force7", "force": 12.5}``."""
+
+    @property
+    def term(self) -> Value:
+        """The fact as a term, ``contacts(hand1,egg1)``; an atom when there are no arguments."""
+        return Term(self.type, self.args) if self.args else self.type
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, weakref_slot=True, eq=False)
+class Timeline:
+    """All facts of one run with what is known of its individuals. Made by ``make_timeline``."""
+
+    facts: tuple[Fact, ...]
+    """Maximal facts, ordered by start, end, kind, type and arguments."""
+    dt: float
+    """Tick of the log [s]."""
+    duration: float
+    """End of the run [s]."""
+    domain: Domain = Domain()
+    """What queries can read of the individuals."""
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Timeline):
+            return NotImplemented
+        mine = (self.facts, self.dt, self.duration, self.domain)
+        return mine == (other.facts, other.dt, other.duration, other.domain)
+
+    __hash__ = object.__hash__
+
+    def select(self, *, type: str | None = None, kind: Kind | None = None) -> tuple[Fact, ...]:
+        """Return the facts of one type (either spelling, ``Broken`` or ``broken``), of one kind, or both."""
+        name = None if type is None else type[:1].lower() + type[1:]
+        return tuple(f for f in self.facts if name in (None, f.type) and kind in (None, f.kind))
+
+    def ask(self, goal: str, *, limit: int | None = None, time_limit: float = 10.0) -> list[dict[str, Value]]:
+        """Return the answers to a Prolog goal: ``[]`` means no, ``[{}]`` means yes.
+
+        Args:
+            goal: One goal, such as ``holds(broken(X), T)``; see ``docs/queries.md``.
+            limit: Greatest number of answers that are computed; all when ``None``.
+            time_limit: Time after which the query is stopped [s].
+
+        Returns:
+            For each distinct answer, the values of the goal's variables (those beginning with ``_`` left out).
+
+        Raises:
+            GoalError: If the goal cannot be read, names an unknown predicate or relation, or is not permitted.
+            GoalLimitError: If it used up its time or memory.
+            MissingToolError: If SWI-Prolog is not installed.
+        """
+        from prolepsis.logic.session import shared_session
+
+        return shared_session().ask(self, goal, limit=limit, time_limit=time_limit)
+
+    def to_json(self) -> list[dict[str, Any]]:
+        """Return the facts as plain data, one dictionary each."""
+        return [
+            {
+                "kind": fact.kind,
+                "type": fact.type,
+                "args": list(fact.args),
+                "start": fact.start,
+                "end": fact.end,
+                "evidence": dict(fact.evidence),
+            }
+            for fact in self.facts
+        ]
+
+    @classmethod
+    def from_json(
+        cls, rows: Iterable[Mapping[str, Any]], *, dt: float, duration: float, domain: Domain | None = None
+    ) -> Timeline:
+        """Return the timeline of which ``rows`` are the facts, as ``to_json`` gives them.
+
+        Raises:
+            InputError: If a row is not a fact.
+        """
+        facts = [_read_fact(row, number) for number, row in enumerate(rows, start=1)]
+        return make_timeline(facts, dt=dt, duration=duration, domain=domain)
+
+
+def make_timeline(facts: Iterable[Fact], *, dt: float, duration: float, domain: Domain | None = None) -> Timeline:
+    """Return the timeline of ``facts``: sorted, and maximal.
+
+    Stretches of the same fact that overlap, or are less than half a tick apart, become one. Its evidence
+    keeps, of a number given by several, the greatest, and of a name, the first. A fact within one tick is
+    made one tick long.
+
+    Args:
+        facts: The facts, in any order.
+        dt: Tick of the log [s].
+        duration: End of the run [s].
+        domain: What is known of the individuals.
+
+    Raises:
+        InputError: If a time is not finite, or a fact ends before it starts.
+    """
+    ordered = sorted((_at_least_a_tick(fact, dt) for fact in facts), key=lambda f: (_identity(f), f.start, f.end))
+    maximal = (whole for _, same in groupby(ordered, key=_identity) for whole in _merge(same, dt / 2))
+    by_time = sorted(maximal, key=lambda f: (f.start, f.end, *_identity(f)))
+    return Timeline(facts=tuple(by_time), dt=dt, duration=duration, domain=domain or Domain())
+
+
+def _identity(fact: Fact) -> tuple[str, str, tuple[tuple[bool, Any], ...]]:
+    # Numbers and names do not compare with each other, so numbers are put first.
+    return fact.kind, fact.type, tuple((isinstance(a, str), a) for a in fact.args)
+
+
+def _at_least_a_tick(fact: Fact, dt: float) -> Fact:
+    if not (math.isfinite(fact.start) and math.isfinite(fact.end)) or fact.end < fact.start:
+        raise InputError(f"fact {fact.term}: cannot hold over {fact.start}-{fact.end}; the end must follow the start")
+    if fact.end > fact.start:
+        return fact
+    tick = round(fact.start / dt)
+    return replace(fact, end=(tick + 1) * dt if tick * dt == fact.start else fact.start + dt)
+
+
+def _merge(stretches: Iterable[Fact], gap: float) -> Iterable[Fact]:
+    """Yield the maximal facts of one term from its stretches in order of start."""
+    whole: Fact | None = None
+    for stretch in stretches:
+        if whole is None or stretch.start > whole.end + gap:
+            if whole is not None:
+                yield whole
+            whole = stretch
+        else:
+            evidence = _merged_evidence(whole.evidence, stretch.evidence)
+            whole = replace(whole, end=max(whole.end, stretch.end), evidence=evidence)
+    if whole is not None:
+        yield whole
+
+
+def _merged_evidence(first: Evidence, second: Evidence) -> dict[str, float | str]:
+    merged = dict(first)
+    for name, value in second.items():
+        known = merged.setdefault(name, value)
+        if not isinstance(known, str) and not isinstance(value, str):
+            merged[name] = max(known, value)
+    return merged
+
+
+def _read_fact(row: Mapping[str, Any], number: int) -> Fact:
+    try:
+        kind = cast(Kind, row["kind"])
+        fact = Fact(
+            kind=kind,
+            type=row["type"],
+            args=tuple(row.get("args", ())),
+            start=float(row["start"]),
+            end=float(row["end"]),
+            evidence=dict(row.get("evidence") or {}),
+        )
+    except (KeyError, TypeError, ValueError) as error:
+        raise InputError(f"timeline, fact {number}: not a fact: {error!r}") from error
+    if kind not in ("fluent", "event"):
+        raise InputError(f"timeline, fact {number}: no kind {kind!r}; known: fluent, event")
+    return fact
