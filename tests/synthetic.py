@@ -1,0 +1,99 @@
+"""A small log made by hand: an egg that falls from a flap and breaks, without any simulator."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from prolepsis.log import Action, Contacts, Detachments, Log
+from prolepsis.terms import Term
+from prolepsis.things import FloatArray, Geom, Shape, Thing
+
+DT = 0.001
+TICKS = 800
+FALL, LAND = 200, 500
+"""Ticks at which the egg loses its support and reaches the floor."""
+
+
+def egg_things() -> tuple[Thing, ...]:
+    """Return a floor, an egg with shell, yolk, two pieces and a blob, and a flap."""
+    egg = Shape(geoms=(Geom(type="ellipsoid", size=(0.022, 0.022, 0.0285)),), colour=(0.9, 0.8, 0.7, 1.0))
+    cap = tuple((0.02 * np.cos(i), 0.02 * np.sin(i), 0.01 * (i % 3)) for i in range(9))
+    piece = Shape(geoms=(Geom(type="mesh", vertices=cap),))
+    blob = Shape(geoms=(Geom(type="sphere", size=(0.01, 0.0, 0.0)),), colour=(0.9, 0.7, 0.1, 1.0))
+    box = Shape(geoms=(Geom(type="box", size=(0.1, 0.1, 0.005)),))
+    floor = Shape(geoms=(Geom(type="plane", size=(2.0, 2.0, 0.1)),))
+    return (
+        Thing(name="floor", kind="Floor", shape=floor, fixed=True, roles=frozenset({"Floor"})),
+        Thing(
+            name="egg1",
+            kind="Egg",
+            shape=egg,
+            mass=0.058,
+            roles=frozenset({"Egg", "Breakable"}),
+            quantities={"friction": 0.4, "breakingForce": 37.0},
+        ),
+        Thing(name="eggshell1", kind="EggShell", whole="egg1", mass=0.006, roles=frozenset({"EggShell"})),
+        Thing(name="yolk1", kind="Yolk", whole="egg1", mass=0.018, roles=frozenset({"Stuff"})),
+        Thing(name="eggshell1/piece0", kind="Piece", shape=piece, whole="eggshell1", roles=frozenset({"Piece"})),
+        Thing(name="eggshell1/piece1", kind="Piece", shape=piece, whole="eggshell1", roles=frozenset({"Piece"})),
+        Thing(name="yolk1/blob0", kind="Blob", shape=blob, whole="yolk1", roles=frozenset({"Blob"})),
+        Thing(name="flap1", kind="Flap", shape=box, position=(0.0, 0.0, 0.5), roles=frozenset({"Table"})),
+    )
+
+
+def egg_drop_log() -> Log:
+    """Return the log of an egg that rests on a flap, falls, and breaks on the floor."""
+    things = egg_things()
+    n = len(things)
+    time: FloatArray = np.arange(TICKS, dtype=np.float64) * DT
+    poses = np.zeros((TICKS, n, 7))
+    poses[:, :, 3] = 1.0
+    start = 0.505 + 0.0285
+    fallen = np.clip(np.arange(TICKS) - FALL, 0, LAND - FALL) * DT
+    height = np.maximum(start - 0.5 * 9.81 * fallen**2, 0.0285)
+    poses[:, 1:7, 2] = height[:, None]
+    # Afterwards the pieces and the yolk lie apart.
+    poses[LAND:, 4, :3] = (0.03, 0.0, 0.0)
+    poses[LAND:, 5, :3] = (-0.03, 0.01, 0.0)
+    poses[LAND:, 6, :3] = (0.0, 0.0, 0.01)
+    poses[:, 7, 2] = np.where(np.arange(TICKS) < FALL, 0.5, 0.1)
+    poses[FALL:, 7, 0] = 0.4
+    carrier = np.empty((TICKS, n), dtype=np.int64)
+    carrier[:] = (0, 1, 1, 1, 1, 1, 1, 7)
+    carrier[LAND:] = (0, -1, -1, -1, 4, 5, 6, 7)
+    return Log(
+        dt=DT,
+        things=things,
+        time=time,
+        poses=poses,
+        carrier=carrier,
+        contacts=_contacts(),
+        detachments=Detachments(
+            tick=np.array([LAND]), thing=np.array([1]), a=np.array([4]), b=np.array([5]), force=np.array([38.5])
+        ),
+        channels={"egg1.load": np.where(np.arange(TICKS) == LAND, 1.0, 0.1)},
+        actions=(Action(term=Term("wait", (0.8,)), start=0, end=TICKS, evidence={"asked": 0.8}),),
+    )
+
+
+def _contacts() -> Contacts:
+    weight = 0.058 * 9.81
+    resting = np.arange(FALL)
+    after = np.arange(LAND + 1, TICKS)
+    tick = np.concatenate([resting, [LAND], np.repeat(after, 3)]).astype(np.int64)
+    count = len(tick)
+    a = np.zeros(count, dtype=np.int64)
+    b = np.concatenate([np.full(FALL, 7), [1], np.tile([4, 5, 6], len(after))]).astype(np.int64)
+    # The row's first thing has the lower number, so on the flap the egg is `a` and presses the flap down.
+    a[:FALL] = 1
+    up = np.ones(count)
+    up[:FALL] = -1.0
+    size: FloatArray = np.zeros(count)
+    size[:FALL], size[FALL], size[FALL + 1 :] = weight, 38.5, weight / 3
+    force = np.zeros((count, 3))
+    force[:, 2] = up * size
+    normal = np.zeros((count, 3))
+    normal[:, 2] = up
+    point = np.zeros((count, 3))
+    point[:FALL, 2] = 0.505
+    return Contacts(tick=tick, a=a, b=b, force=force, normal=normal, point=point, peak=size)
