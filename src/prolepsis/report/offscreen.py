@@ -1,0 +1,82 @@
+"""Pictures without a screen: EGL where it works, else OSMesa, whatever was imported before.
+
+MuJoCo reads ``MUJOCO_GL`` only when it is first imported, so the context is made here instead of by its renderer.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+from types import TracebackType
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from prolepsis.errors import MissingToolError
+
+Picture = npt.NDArray[np.uint8]
+"""Rows of pixels, red, green, blue, shape (height, width, 3)."""
+
+BACKENDS = ("egl", "osmesa")
+ADVICE = "apt install libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri"
+
+
+def open_context(width: int, height: int) -> tuple[str, Any]:
+    """Return the name of the first back end that works, and its OpenGL context, current.
+
+    Raises:
+        MissingToolError: If none works.
+    """
+    chosen = os.environ.get("MUJOCO_GL", "").strip().lower()
+    reasons: list[str] = []
+    for backend in sorted(BACKENDS, key=lambda name: name != chosen):
+        try:
+            # PyOpenGL binds itself to one back end; the first that works stays.
+            os.environ["PYOPENGL_PLATFORM"] = backend
+            context: Any = importlib.import_module(f"mujoco.{backend}").GLContext(width, height)
+            context.make_current()
+        # A missing library shows itself as any of these, depending on which one it is.
+        except (ImportError, AttributeError, OSError, RuntimeError, TypeError) as error:
+            reasons.append(f"{backend}: {(str(error) or type(error).__name__).splitlines()[0]}")
+            continue
+        return backend, context
+    raise MissingToolError(f"no off-screen OpenGL ({'; '.join(reasons)}); {ADVICE}")
+
+
+class Camera:
+    """Takes pictures of a model off-screen. Use it as a context manager."""
+
+    def __init__(self, model: Any, *, width: int, height: int, view: Any) -> None:
+        """Open an OpenGL context for ``model`` (an MjModel), seen as ``view`` (an MjvCamera) tells."""
+        # OpenGL first: importing MuJoCo with another back end would bind PyOpenGL to that.
+        self.backend, self._context = open_context(width, height)
+        mujoco: Any = importlib.import_module("mujoco")
+        self._mujoco = mujoco
+        self._model = model
+        self._view = view
+        self._scene = mujoco.MjvScene(model, maxgeom=10000)
+        self._options = mujoco.MjvOption()
+        self._rectangle = mujoco.MjrRect(0, 0, width, height)
+        self._renderer = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_150.value)
+        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self._renderer)
+        self._pixels = np.zeros((height, width, 3), dtype=np.uint8)
+
+    def take(self, data: Any) -> Picture:
+        """Return a picture of the state ``data`` (an MjData)."""
+        mujoco = self._mujoco
+        everything = mujoco.mjtCatBit.mjCAT_ALL.value
+        mujoco.mjv_updateScene(self._model, data, self._options, None, self._view, everything, self._scene)
+        mujoco.mjr_render(self._rectangle, self._scene, self._renderer)
+        mujoco.mjr_readPixels(self._pixels, None, self._rectangle, self._renderer)
+        # OpenGL counts rows from below.
+        return np.ascontiguousarray(self._pixels[::-1])
+
+    def __enter__(self) -> Camera:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._renderer.free()
+        self._context.free()

@@ -1,0 +1,181 @@
+"""Pictures of a log: a video, numbered frames, or a strip of moments with their times."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import Any, cast
+
+import numpy as np
+
+from prolepsis.errors import InputError
+from prolepsis.log import Log
+from prolepsis.report.offscreen import Camera, Picture
+from prolepsis.sealed import check_replaceable, written_aside
+
+FRAME_RATE = 30
+"""Frames of a video a second of watching."""
+
+
+def render_video(
+    log: Log,
+    out: str | Path,
+    *,
+    speed: float = 1.0,
+    size: tuple[int, int] = (960, 720),
+    progress: Callable[[float], None] | None = None,
+) -> None:
+    """Write an MP4 (H.264) of the whole log.
+
+    Args:
+        log: What to show.
+        out: File to write, ``.mp4``.
+        speed: Simulated seconds a second of watching; 0.25 is four times slow motion [1].
+        size: Width and height [pixel], each even.
+        progress: Called with the fraction done.
+
+    Raises:
+        InputError: If ``speed`` or the file's suffix is wrong, or the log is empty.
+        MissingToolError: If there is no off-screen OpenGL.
+    """
+    import imageio_ffmpeg  # pyright: ignore[reportMissingTypeStubs]
+
+    target = Path(out).absolute()
+    if target.suffix != ".mp4":
+        raise InputError(f"{out}: a video's name ends in .mp4")
+    if not 0.001 <= speed <= 100.0:
+        raise InputError(f"speed {speed:g}: is not between 0.001 and 100")
+    count = max(2, round(log.duration / speed * FRAME_RATE))
+    ticks = _ticks(log, np.arange(count) * speed / FRAME_RATE)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    with written_aside(target) as aside:
+        writer: Any = cast(Any, imageio_ffmpeg).write_frames(
+            str(aside), size, fps=FRAME_RATE, codec="libx264", quality=8, macro_block_size=2
+        )
+        writer.send(None)
+        try:
+            for picture in _report(pictures(log, ticks, size=size), len(ticks), progress):
+                writer.send(picture)
+        finally:
+            writer.close()
+
+
+def render_frames(
+    log: Log,
+    folder: str | Path,
+    *,
+    count: int = 24,
+    size: tuple[int, int] = (960, 720),
+    progress: Callable[[float], None] | None = None,
+) -> list[Path]:
+    """Write ``count`` PNG files, evenly spaced in time from first to last tick, and return their paths.
+
+    Raises:
+        InputError: If ``folder`` holds other files than frames, or the log is empty.
+    """
+    target = _frames_folder(folder)
+    ticks = _evenly(log, count)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    names: list[str] = []
+    with written_aside(target) as aside:
+        aside.mkdir()
+        for i, picture in enumerate(_report(pictures(log, ticks, size=size), len(ticks), progress)):
+            names.append(f"frame{i:04d}_{log.time[ticks[i]]:.3f}s.png")
+            _save(picture, aside / names[-1])
+    return [target / name for name in names]
+
+
+def render_strip(
+    log: Log,
+    out: str | Path,
+    *,
+    times: Sequence[float] | None = None,
+    count: int = 5,
+    size: tuple[int, int] = (360, 420),
+    **view: float,
+) -> None:
+    """Write one PNG with moments side by side, each with its time.
+
+    Args:
+        log: What to show.
+        out: File to write, ``.png``.
+        times: Moments to show [s]; by default ``count`` evenly spaced ones.
+        count: How many moments when ``times`` are not given.
+        size: Width and height of each picture [pixel].
+        view: ``azimuth`` and ``elevation`` of the camera [degree].
+
+    Raises:
+        InputError: If the file's suffix is wrong or the log is empty.
+    """
+    from PIL import Image
+
+    target = Path(out).absolute()
+    if target.suffix != ".png":
+        raise InputError(f"{out}: a strip's name ends in .png")
+    ticks = _evenly(log, count) if times is None else _ticks(log, np.asarray(times))
+    shown = [
+        _with_time(picture, float(log.time[tick]))
+        for tick, picture in zip(ticks, pictures(log, ticks, size=size, **view), strict=True)
+    ]
+    width, height = size
+    strip = Image.new("RGB", (len(shown) * (width + 4) - 4, height), "white")
+    for i, picture in enumerate(shown):
+        strip.paste(Image.fromarray(picture), (i * (width + 4), 0))
+    target.parent.mkdir(parents=True, exist_ok=True)
+    with written_aside(target) as aside:
+        strip.save(aside)
+
+
+def pictures(log: Log, ticks: Sequence[int], *, size: tuple[int, int], **view: float) -> Iterator[Picture]:
+    """Yield a picture of ``log`` at each of ``ticks``, all from one fixed camera."""
+    width, height = size
+    from prolepsis.report.stage import Stage
+
+    stage = Stage(log, width=width, height=height)
+    with Camera(stage.model, width=width, height=height, view=stage.view(list(ticks), **view)) as camera:
+        for tick in ticks:
+            yield camera.take(stage.show(tick))
+
+
+def _ticks(log: Log, times: Any) -> list[int]:
+    if log.tick_count == 0:
+        raise InputError("the log has no ticks, so there is nothing to show")
+    return [int(tick) for tick in np.clip(np.rint(times / log.dt), 0, log.tick_count - 1)]
+
+
+def _evenly(log: Log, count: int) -> list[int]:
+    if count < 1:
+        raise InputError(f"{count} pictures: at least one is needed")
+    return _ticks(log, np.linspace(0.0, max(0, log.tick_count - 1) * log.dt, count))
+
+
+def _report(shown: Iterator[Picture], count: int, progress: Callable[[float], None] | None) -> Iterator[Picture]:
+    for i, picture in enumerate(shown):
+        yield picture
+        if progress is not None:
+            progress((i + 1) / count)
+
+
+def _frames_folder(folder: str | Path) -> Path:
+    path = Path(folder)
+    ours = path.is_dir() and all(file.match("frame*_*s.png") for file in path.iterdir())
+    return (path if ours else check_replaceable(path)).absolute()
+
+
+def _save(picture: Picture, file: Path) -> None:
+    from PIL import Image
+
+    Image.fromarray(picture).save(file)
+
+
+def _with_time(picture: Picture, time: float) -> Picture:
+    from PIL import Image, ImageDraw, ImageFont
+
+    image = Image.fromarray(picture)
+    draw = ImageDraw.Draw(image, "RGBA")
+    font = ImageFont.load_default(size=max(12, image.height // 22))
+    text = f"{time:.3f} s"
+    left, top, right, bottom = draw.textbbox((12, 10), text, font=font)
+    draw.rounded_rectangle((left - 7, top - 5, right + 7, bottom + 5), 5, fill=(255, 255, 255, 190))
+    draw.text((12, 10), text, font=font, fill=(30, 30, 35, 255))
+    return np.asarray(image, dtype=np.uint8)

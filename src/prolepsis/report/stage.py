@@ -1,0 +1,241 @@
+"""The stage: a model for pictures only, made from a log; each thing is a puppet put at its logged pose."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco as _mujoco  # pyright: ignore[reportMissingTypeStubs]
+import numpy as np
+
+from prolepsis.log import Log
+from prolepsis.things import BoolArray, FloatArray, Geom, Thing
+
+mujoco: Any = _mujoco
+"""MuJoCo has no type stubs."""
+
+APPEARING = frozenset({"Piece", "Blob"})
+"""Roles of what is seen only once its whole has come apart."""
+
+PLAIN = (0.7, 0.7, 0.7, 1.0)
+COLOURS = {
+    "Floor": (0.80, 0.80, 0.78, 1.0),
+    "Table": (0.62, 0.45, 0.30, 1.0),
+    "EggYolk": (0.97, 0.68, 0.10, 1.0),
+    "Yolk": (0.97, 0.68, 0.10, 1.0),
+    "EggWhite": (0.96, 0.95, 0.85, 0.45),
+    "White": (0.96, 0.95, 0.85, 0.45),
+    "Piece": (0.90, 0.78, 0.66, 1.0),
+}
+"""Colours of things whose shape has none of its own, by class or role."""
+
+MOVED = 1e-3
+"""A thing that goes less far than this [m] is scenery and does not draw the camera."""
+
+LIGHT_DISTANCE = 8.0
+"""Distance of the lights from the middle of the scene, in its extents [1]."""
+
+VIEW_ANGLE = 40.0
+"""Vertical field of view [degree]."""
+
+
+class Stage:
+    """The model, its state and its camera for one log."""
+
+    def __init__(self, log: Log, *, width: int = 640, height: int = 480) -> None:
+        """Build the puppets of ``log`` for pictures of ``width`` x ``height`` pixels."""
+        self.log = log
+        self.width, self.height = width, height
+        self._parents = {thing.name: thing.whole for thing in log.things}
+        self._index = {thing.name: i for i, thing in enumerate(log.things)}
+        self._ancestors = [self._chain(thing) for thing in log.things]
+        self._appears = [bool(thing.roles & APPEARING) for thing in log.things]
+        spec: Any = mujoco.MjSpec()
+        _dress(spec, width, height)
+        for i, thing in enumerate(log.things):
+            if thing.shape.geoms:
+                self._add(spec, i, thing)
+        self.model: Any = spec.compile()
+        self.data: Any = mujoco.MjData(self.model)
+        names = [f"thing{i}" for i in range(len(log.things))]
+        self._puppets = [
+            (i, self.model.body(name).mocapid[0], self.model.body(name).id)
+            for i, name in enumerate(names)
+            if log.things[i].shape.geoms
+        ]
+        self._opacity: FloatArray = self.model.geom_rgba[:, 3].copy()
+
+    def visible(self, tick: int) -> BoolArray:
+        """Return which things are seen at ``tick``, shape (n,)."""
+        carrier = self.log.carrier[tick]
+        # A broken whole has no body; a piece or blob is hidden while a whole of its own carries it.
+        return np.array(
+            [
+                carrier[i] >= 0 and not (self._appears[i] and int(carrier[i]) in self._ancestors[i])
+                for i in range(len(carrier))
+            ]
+        )
+
+    def show(self, tick: int) -> Any:
+        """Put every thing at its pose of ``tick`` and return the state."""
+        seen = self.visible(tick)
+        for i, puppet, body in self._puppets:
+            self.data.mocap_pos[puppet] = self.log.poses[tick, i, :3]
+            self.data.mocap_quat[puppet] = self.log.poses[tick, i, 3:]
+            first = self.model.body_geomadr[body]
+            own = slice(first, first + self.model.body_geomnum[body])
+            self.model.geom_rgba[own, 3] = self._opacity[own] if seen[i] else 0.0
+        mujoco.mj_kinematics(self.model, self.data)
+        mujoco.mj_camlight(self.model, self.data)
+        return self.data
+
+    def view(self, ticks: list[int], *, azimuth: float = 125.0, elevation: float = -18.0) -> Any:
+        """Return a camera (MjvCamera) that has what moves during ``ticks`` in its frame."""
+        low, high = self._bounds(ticks)
+        radius = float(np.linalg.norm(high - low)) / 2
+        self.model.stat.extent = max(radius, 0.2)
+        self.model.stat.center = (low + high) / 2
+        narrow = min(1.0, self.width / self.height)
+        self.model.light_pos = self.model.stat.center - LIGHT_DISTANCE * self.model.stat.extent * self.model.light_dir
+        camera: Any = mujoco.MjvCamera()
+        camera.type = mujoco.mjtCamera.mjCAMERA_FREE.value
+        camera.lookat = (low + high) / 2
+        camera.distance = 1.05 * radius / (narrow * np.sin(np.radians(VIEW_ANGLE / 2)))
+        camera.azimuth, camera.elevation = azimuth, elevation
+        return camera
+
+    def _bounds(self, ticks: list[int]) -> tuple[FloatArray, FloatArray]:
+        """Return the lower and upper corner of what moves [m]; a few far splinters are left out."""
+        places: list[FloatArray] = []
+        for i, thing in enumerate(self.log.things):
+            seen = [tick for tick in ticks if self.visible(tick)[i]]
+            if thing.fixed or not thing.shape.geoms or not seen:
+                continue
+            path = self.log.poses[seen, i, :3]
+            if float(np.ptp(path, axis=0).max()) > MOVED or self._appears[i]:
+                size = min(_radius(thing), 0.15)
+                places += [path - size, path + size]
+        if not places:
+            shown = [i for i, thing in enumerate(self.log.things) if thing.shape.geoms and not thing.fixed]
+            path = self.log.poses[0, shown or [0], :3]
+            places = [path - 0.1, path + 0.1]
+        points = np.concatenate(places)
+        return np.percentile(points, 1.0, axis=0), np.percentile(points, 99.0, axis=0)
+
+    def _chain(self, thing: Thing) -> frozenset[int]:
+        chain: set[int] = set()
+        whole = thing.whole
+        while whole is not None and whole in self._index:
+            chain.add(self._index[whole])
+            whole = self._parents[whole]
+        return frozenset(chain)
+
+    def _add(self, spec: Any, i: int, thing: Thing) -> None:
+        body = spec.worldbody.add_body(name=f"thing{i}", mocap=True)
+        for k, geom in enumerate(thing.shape.geoms):
+            solid = body.add_geom(
+                type=getattr(mujoco.mjtGeom, f"mjGEOM_{geom.type.upper()}"),
+                size=_drawn_size(geom),
+                pos=geom.position,
+                quat=geom.orientation,
+                rgba=self._colour(thing),
+                contype=0,
+                conaffinity=0,
+                density=0,
+            )
+            if geom.type == "mesh":
+                name = f"mesh{i}.{k}"
+                # A shell's inertia is defined for the thinnest piece; only the picture matters here.
+                spec.add_mesh(
+                    name=name,
+                    uservert=np.asarray(geom.vertices).ravel(),
+                    inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL,
+                )
+                solid.meshname = name
+            solid.material = "ground" if geom.type == "plane" else "matt"
+
+    def _colour(self, thing: Thing) -> tuple[float, float, float, float]:
+        if thing.shape.colour != PLAIN:
+            return thing.shape.colour
+        whole = self.log.things[self._index[thing.whole]].kind if thing.whole in self._index else ""
+        named = (thing.kind, whole, *sorted(thing.roles))
+        return next((COLOURS[name] for name in named if name in COLOURS), PLAIN)
+
+
+def _drawn_size(geom: Geom) -> tuple[float, float, float]:
+    """Return the size as drawn [m]: a plane without bounds reaches far."""
+    if geom.type == "plane":
+        return (geom.size[0] or 20.0, geom.size[1] or 20.0, 0.05)
+    return geom.size
+
+
+def _radius(thing: Thing) -> float:
+    """Return a radius [m] that holds the thing's geoms, planes left out."""
+    return max(
+        (
+            float(np.linalg.norm(geom.position))
+            + (
+                float(np.linalg.norm(geom.vertices, axis=1).max())
+                if geom.type == "mesh"
+                else sum(geom.size[:2])
+                if geom.type in ("capsule", "cylinder")
+                else max(geom.size)
+            )
+            for geom in thing.shape.geoms
+            if geom.type != "plane"
+        ),
+        default=0.0,
+    )
+
+
+def _dress(spec: Any, width: int, height: int) -> None:
+    """Add sky, ground and lights."""
+    spec.compiler.degree = False
+    visual = spec.visual
+    visual.global_.offwidth, visual.global_.offheight = width, height
+    visual.global_.fovy = VIEW_ANGLE
+    visual.quality.shadowsize = 2048
+    visual.quality.offsamples = 4
+    visual.map.znear = 0.01
+    visual.headlight.ambient = (0.35, 0.35, 0.36)
+    visual.headlight.diffuse = (0.25, 0.25, 0.25)
+    visual.headlight.specular = (0.0, 0.0, 0.0)
+    textures = mujoco.mjtTexture
+    patterns = mujoco.mjtBuiltin
+    spec.add_texture(
+        name="sky",
+        type=textures.mjTEXTURE_SKYBOX,
+        builtin=patterns.mjBUILTIN_GRADIENT,
+        rgb1=(0.86, 0.91, 0.96),
+        rgb2=(0.55, 0.63, 0.72),
+        width=256,
+        height=1536,
+    )
+    spec.add_texture(
+        name="tiles",
+        type=textures.mjTEXTURE_2D,
+        builtin=patterns.mjBUILTIN_CHECKER,
+        rgb1=(0.93, 0.92, 0.90),
+        rgb2=(0.82, 0.81, 0.79),
+        width=512,
+        height=512,
+    )
+    ground = spec.add_material(name="ground", texrepeat=(5, 5), texuniform=True, specular=0.1, shininess=0.1)
+    ground.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "tiles"
+    spec.add_material(name="matt", specular=0.25, shininess=0.35)
+    spec.worldbody.add_light(
+        # Not a directional light: its shadow map leaves patterns on a large floor.
+        type=mujoco.mjtLightType.mjLIGHT_SPOT,
+        dir=(-0.35, 0.45, -1.0),
+        cutoff=60.0,
+        exponent=1.0,
+        diffuse=(0.62, 0.60, 0.56),
+        specular=(0.25, 0.25, 0.25),
+        castshadow=True,
+    )
+    spec.worldbody.add_light(
+        type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
+        dir=(0.6, -0.4, -0.8),
+        diffuse=(0.16, 0.18, 0.22),
+        specular=(0.0, 0.0, 0.0),
+        castshadow=False,
+    )
