@@ -5,8 +5,9 @@ Physics writes it, recognition reads it, and neither knows the other.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -139,3 +140,24 @@ class Log:
             if thing.name == name:
                 return i
         raise UnknownNameError.of("object", name, (thing.name for thing in self.things))
+
+    @classmethod
+    def from_mujoco(
+        cls, model: Any, states: FloatArray, dt: float, scene: Mapping[str, Thing] | Sequence[Thing] | None = None
+    ) -> Log:
+        """Return the log of any MuJoCo rollout; see ``docs/grounding.md``.
+
+        Args:
+            model: The ``mujoco.MjModel`` that was stepped.
+            states: Full integration states (``mjSTATE_INTEGRATION``), one a tick, shape (T, k).
+            dt: Time between two states [s].
+            scene: Things that say more of those in the model (kind, roles, ...), by name. Without it every
+                named top-level body is a thing.
+
+        Raises:
+            InputError: If ``states`` has the wrong shape.
+            InvalidSimulationError: If a state is not finite or MuJoCo warns of one.
+        """
+        from prolepsis.monitors.rollout import read_rollout
+
+        return read_rollout(model, states, dt, scene)
