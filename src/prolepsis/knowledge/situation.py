@@ -1,0 +1,206 @@
+"""The situation: what the Turtle files say of individuals, checked name by name and value by value."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from rdflib import OWL, RDF, RDFS, BNode, URIRef
+
+from prolepsis.errors import KnowledgeError, UnknownNameError
+from prolepsis.knowledge.turtle import NAMESPACE, Document, local_name
+from prolepsis.knowledge.vocabulary import Vocabulary, read_value
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Statement:
+    """One value or relation of an individual."""
+
+    subject: str
+    """The individual."""
+    property: str
+    """Name of the property."""
+    value: float | str
+    """In SI units, ``true``/``false``, or the name of another individual."""
+    where: str
+    """File and line, or why it is said."""
+    derived: bool = False
+    """True if it follows from a default part."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Situation:
+    """All individuals and what is said of them."""
+
+    classes: Mapping[str, tuple[str, ...]]
+    """Told classes of each individual, sorted by name."""
+    statements: tuple[Statement, ...]
+    """Values and relations, in the order of files and names."""
+    places: Mapping[str, str]
+    """File and line where each individual is introduced."""
+    wholes: Mapping[str, str]
+    """Part to whole."""
+
+    @property
+    def parts(self) -> Mapping[str, tuple[str, ...]]:
+        """Whole to its direct parts, sorted."""
+        found: dict[str, list[str]] = {}
+        for part, whole in sorted(self.wholes.items()):
+            found.setdefault(whole, []).append(part)
+        return {whole: tuple(parts) for whole, parts in found.items()}
+
+
+def read_situation(documents: tuple[Document, ...], vocabulary: Vocabulary) -> Situation:
+    """Return what ``documents`` say of individuals, with the default parts made.
+
+    Raises:
+        UnknownNameError: If an individual has no class, or a relation names one that is not there.
+        KnowledgeError: If a value is wrong, or the parts are no trees.
+    """
+    classes: dict[str, tuple[str, ...]] = {}
+    places: dict[str, str] = {}
+    iris: dict[str, URIRef] = {}
+    for document in documents:
+        for iri in _individuals(document, vocabulary):
+            name = local_name(iri)
+            if iris.setdefault(name, iri) != iri:
+                raise KnowledgeError(f"{document.where(iri)}: two individuals are called {name}: <{iris[name]}> and <{iri}>")
+            told = [local_name(t) for t in document.graph.objects(iri, RDF.type) if isinstance(t, URIRef) and t != OWL.NamedIndividual]
+            if told or name not in classes:
+                classes[name] = tuple(sorted({*classes.get(name, ()), *told}))
+                places.setdefault(name, document.where(iri))
+    for name, told in sorted(classes.items()):
+        if not told:
+            known = [n for n, t in classes.items() if t]
+            raise UnknownNameError.of("individual", name, known, where=f"{places[name]}: it has no class")
+    statements = [s for document in documents for s in _statements(document, vocabulary, classes)]
+    _refuse_second_values(statements, vocabulary)
+    situation = Situation(
+        classes=dict(sorted(classes.items())),
+        statements=tuple(statements),
+        places=places,
+        wholes=_wholes(statements),
+    )
+    situation = _with_default_parts(situation, vocabulary)
+    _refuse_loose_parts(situation, vocabulary)
+    return situation
+
+
+def _individuals(document: Document, vocabulary: Vocabulary) -> list[URIRef]:
+    graph = document.graph
+    terms = {OWL.Class, OWL.ObjectProperty, OWL.DatatypeProperty, OWL.AnnotationProperty, OWL.Ontology, RDFS.Datatype}
+    found: set[URIRef] = set()
+    for subject in set(graph.subjects()):
+        if not isinstance(subject, URIRef):
+            continue
+        types = set(graph.objects(subject, RDF.type))
+        name = local_name(subject)
+        declared = name in vocabulary.classes or name in vocabulary.properties
+        if not types & terms and not (declared and str(subject).startswith(NAMESPACE)):
+            found.add(subject)
+    return sorted(found)
+
+
+def _statements(document: Document, vocabulary: Vocabulary, classes: Mapping[str, tuple[str, ...]]) -> list[Statement]:
+    found: list[Statement] = []
+    for iri in _individuals(document, vocabulary):
+        subject = local_name(iri)
+        for predicate, node in sorted(document.graph.predicate_objects(iri), key=str):
+            name = local_name(predicate) if isinstance(predicate, URIRef) else ""
+            if name not in vocabulary.properties or isinstance(node, BNode):
+                continue
+            entry = vocabulary.properties[name]
+            where = document.where(iri)
+            value = read_value(entry, node, where=f"{where}: {subject}")
+            if entry.kind == "relation" and value not in classes:
+                known = [n for n in classes if "ShapeKind" not in classes[n]]
+                raise UnknownNameError.of("individual", str(value), known, where=f"{where}: {subject} {name}")
+            found.append(Statement(subject=subject, property=name, value=value, where=where))
+    return [_upright(s) for s in found]
+
+
+def _upright(statement: Statement) -> Statement:
+    """Return ``part partOf whole`` as ``whole hasPart part``."""
+    if statement.property != "partOf":
+        return statement
+    return replace(statement, subject=str(statement.value), property="hasPart", value=statement.subject)
+
+
+def _refuse_second_values(statements: list[Statement], vocabulary: Vocabulary) -> None:
+    seen: dict[tuple[str, str], Statement] = {}
+    for s in statements:
+        if not vocabulary.properties[s.property].functional:
+            continue
+        first = seen.setdefault((s.subject, s.property), s)
+        if first.value != s.value:
+            raise KnowledgeError(f"{s.where}: {s.subject} has two values of {s.property}: {first.value} and {s.value}")
+
+
+def _wholes(statements: list[Statement]) -> dict[str, str]:
+    wholes: dict[str, str] = {}
+    for s in statements:
+        if s.property != "hasPart":
+            continue
+        part = str(s.value)
+        if wholes.setdefault(part, s.subject) != s.subject:
+            raise KnowledgeError(f"{s.where}: {part} has two wholes: {wholes[part]} and {s.subject}")
+    for part in sorted(wholes):
+        chain = [part]
+        while chain[-1] in wholes:
+            chain.append(wholes[chain[-1]])
+            if chain[-1] == part:
+                places = {str(s.value): s.where for s in statements if s.property == "hasPart"}
+                raise KnowledgeError(f"{places[part]}: {part} is a part of itself: {' is part of '.join(chain)}")
+    return wholes
+
+
+def _with_default_parts(situation: Situation, vocabulary: Vocabulary) -> Situation:
+    """Return the situation with the parts that its classes give where the files say nothing else."""
+    classes, places, wholes = dict(situation.classes), dict(situation.places), dict(situation.wholes)
+    statements = list(situation.statements)
+    for whole, told in situation.classes.items():
+        stated = {c for part in situation.parts.get(whole, ()) for c in vocabulary.told_classes(classes[part])}
+        for name in vocabulary.told_classes(told):
+            for part in vocabulary.classes[name].parts:
+                if part.unless in stated:
+                    continue
+                part_name = part_name_of(whole, part.kind)
+                if part_name in classes:
+                    raise KnowledgeError(
+                        f"{places[part_name]}: {part_name} is part of nothing, and {whole} would have a part of that "
+                        f"name by default; say '{whole} hasPart {part_name}' or name it otherwise"
+                    )
+                classes[part_name] = (part.kind,)
+                places[part_name] = f"default part of {name}: {part.source}"
+                wholes[part_name] = whole
+                statements.append(
+                    Statement(subject=whole, property="hasPart", value=part_name, where=places[part_name], derived=True)
+                )
+    return Situation(classes=dict(sorted(classes.items())), statements=tuple(statements), places=places, wholes=wholes)
+
+
+def part_name_of(whole: str, kind: str) -> str:
+    """Return the name of a default part: ``eggshell1`` of ``egg1``, ``breakfast/shell`` of ``breakfast``."""
+    short = kind.removeprefix("Egg").lower()
+    number = whole.removeprefix("egg")
+    if whole.startswith("egg") and (number.isdigit() or not number):
+        return f"eggshell{number}" if kind == "EggShell" else f"{short}{number}"
+    return f"{whole}/{short}"
+
+
+def _refuse_loose_parts(situation: Situation, vocabulary: Vocabulary) -> None:
+    for name, told in situation.classes.items():
+        needed = {n for c in vocabulary.told_classes(told) for n in vocabulary.classes[c].needs_whole}
+        if not needed:
+            continue
+        whole = situation.wholes.get(name)
+        kind = " or ".join(sorted(needed))
+        if whole is None:
+            raise KnowledgeError(
+                f"{situation.places[name]}: {name} is part of nothing: {' and '.join(told)} must be a part of a {kind}"
+            )
+        if not needed & set(vocabulary.told_classes(situation.classes[whole])):
+            raise KnowledgeError(
+                f"{situation.places[name]}: {name} is a part of {whole}, which is no {kind}: "
+                f"{' and '.join(told)} must be a part of a {kind}"
+            )

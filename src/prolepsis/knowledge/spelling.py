@@ -1,0 +1,75 @@
+"""Every name is spelt as it was declared: a class, property or individual that nothing declares is refused."""
+
+from __future__ import annotations
+
+from rdflib import OWL, RDF, RDFS, URIRef
+from rdflib.term import Node
+
+from prolepsis.errors import UnknownNameError
+from prolepsis.knowledge.turtle import NAMESPACE, Document, local_name
+from prolepsis.knowledge.vocabulary import PRO, Vocabulary
+
+_COMMON = (
+    "http://www.w3.org/1999/02/22-rdf-syntax-ns#",
+    "http://www.w3.org/2000/01/rdf-schema#",
+    "http://www.w3.org/2002/07/owl#",
+    "http://www.w3.org/2001/XMLSchema#",
+    "http://www.w3.org/2004/02/skos/",
+    "http://purl.org/dc/",
+    "http://qudt.org/",
+)
+"""Namespaces whose names need no declaration."""
+
+_CLASS_PLACES = {
+    RDF.type,
+    RDF.first,
+    RDFS.subClassOf,
+    RDFS.domain,
+    RDFS.range,
+    OWL.equivalentClass,
+    OWL.disjointWith,
+    OWL.complementOf,
+    OWL.someValuesFrom,
+    OWL.allValuesFrom,
+    OWL.onClass,
+    PRO.needsWhole,
+    PRO.unless,
+}
+"""Predicates whose objects are classes."""
+
+
+def refuse_unknown_names(documents: tuple[Document, ...], vocabulary: Vocabulary) -> None:
+    """Check every name in the files that do not belong to the package.
+
+    Raises:
+        UnknownNameError: With file and line, and the nearest known name.
+    """
+    declared = {s for d in documents for s in d.graph.subjects(RDF.type, None) if isinstance(s, URIRef)}
+    shapes = {s for d in documents for s in d.graph.subjects(RDF.type, PRO.ShapeKind)}
+    properties = {i for i in declared if local_name(i) in vocabulary.properties}
+    classes = {i for i in declared if local_name(i) in vocabulary.classes}
+    names = {
+        "class": sorted(vocabulary.classes),
+        "property": sorted(vocabulary.properties),
+        "individual": sorted(local_name(i) for i in declared - properties - classes - shapes),
+    }
+
+    def refuse(what: str, iri: URIRef, document: Document) -> UnknownNameError:
+        return UnknownNameError.of(what, local_name(iri), names[what], document.where(iri))
+
+    for document in documents:
+        if document.built_in:
+            continue
+        for _, predicate, node in sorted(document.graph, key=str):
+            if isinstance(predicate, URIRef) and predicate not in declared and not str(predicate).startswith(_COMMON):
+                raise refuse("property", predicate, document)
+            if not isinstance(node, URIRef) or node in declared or str(node).startswith(_COMMON):
+                continue
+            if predicate == RDF.type or str(node).startswith(NAMESPACE):
+                raise refuse(_role(predicate), node, document)
+
+
+def _role(predicate: Node) -> str:
+    if predicate in _CLASS_PLACES:
+        return "class"
+    return "property" if predicate in (OWL.onProperty, RDFS.subPropertyOf, OWL.inverseOf, PRO.of) else "individual"
