@@ -1,0 +1,264 @@
+"""The scenario: a situation, a plan with its parameters, and what else one run is told.
+
+A scenario file is TOML; it is checked here, at the edge, and is a frozen value from then on.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import tomllib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Field, StrictFloat, StrictInt, StrictStr, ValidationError
+
+from prolepsis.errors import InputError, ScenarioError, UnknownNameError
+from prolepsis.knowledge import KnowledgeBase
+from prolepsis.terms import Term, Value, Variable, parse_term
+from prolepsis.units import read_quantity, si_symbol, to_si, unit_of
+
+Number = StrictInt | StrictFloat
+
+
+class _ParameterTable(BaseModel):
+    """``{ value = 20, unit = "N" }``."""
+
+    model_config = ConfigDict(extra="forbid")
+    value: Number
+    unit: StrictStr = "1"
+
+
+class _ScenarioFile(BaseModel):
+    """The keys of a scenario file."""
+
+    model_config = ConfigDict(extra="forbid")
+    situation: StrictStr | Annotated[list[StrictStr], Field(min_length=1)]
+    plan: StrictStr
+    duration: Number | None = None
+    seed: Annotated[StrictInt, Field(ge=0)] = 0
+    robot: StrictStr | None = None
+    parameters: dict[str, Number | StrictStr | _ParameterTable] = {}
+    knowledge: dict[str, bool | Number | StrictStr] = {}
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """What a variable of the plan stands for."""
+
+    value: float | str
+    """A number in SI units, or the name of an individual of the knowledge base, ``force7``."""
+    unit: str | None = None
+    """SI unit of a number; None for a pure number or a name."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Scenario:
+    """Everything that one run is told. The same scenario gives the same bytes."""
+
+    path: Path
+    """The scenario file; for one made in Python, where its relative paths start."""
+    situation: tuple[Path, ...]
+    """Turtle files."""
+    plan: Value
+    """What the robot does, with variables."""
+    parameters: Mapping[str, Parameter] = field(default_factory=dict[str, Parameter])
+    """Value of each variable of the plan."""
+    knowledge: Mapping[str, float | str] = field(default_factory=dict[str, "float | str"])
+    """Values of the knowledge base that are replaced, ``{"eggshell3.friction": 0.4}``."""
+    robot: str | None = None
+    """Robot that carries out the plan, if it is not an individual of the situation."""
+    duration: float | None = None
+    """Simulated time [s]; None for the plan's length plus settling."""
+    seed: int = 0
+    """Seed of every random draw."""
+
+    def __post_init__(self) -> None:
+        """Refuse a scenario that cannot be run."""
+        if self.duration is not None and not (math.isfinite(self.duration) and self.duration > 0.0):
+            raise ScenarioError(f"{self.path}: duration must be a finite number of seconds greater than 0, not {self.duration:g}")
+        for name, parameter in self.parameters.items():
+            if isinstance(parameter.value, float) and not math.isfinite(parameter.value):
+                raise ScenarioError(f"{self.path}: parameter {name} must be finite, not {parameter.value}")
+        used = sorted(set(variables(self.plan)))
+        missing = [name for name in used if name not in self.parameters]
+        if missing:
+            raise ScenarioError(
+                f"{self.path}: the plan's variable {missing[0]} has no value; give it under [parameters]; "
+                f"given: {_listed(self.parameters)}"
+            )
+        unused = [name for name in sorted(self.parameters) if name not in used]
+        if unused:
+            raise ScenarioError(
+                f"{self.path}: the plan has no variable {unused[0]}, which [parameters] gives; "
+                f"variables of the plan: {_listed(used)}"
+            )
+
+    @classmethod
+    def load(cls, path: Path | str, settings: Mapping[str, str | float] | None = None) -> Scenario:
+        """Return the scenario in the TOML file at ``path``.
+
+        Args:
+            path: The file. Situations are found relative to it.
+            settings: ``NAME -> VALUE`` as ``--set`` gives them: parameters in their own unit, without regard
+                to case, and knowledge values named ``individual.property``.
+
+        Raises:
+            ScenarioError: If the file is missing or wrong.
+            PlanError: If the plan cannot be read.
+            UnknownNameError: If a setting names no parameter.
+        """
+        path = Path(path)
+        content = _read(path)
+        files = [content.situation] if isinstance(content.situation, str) else content.situation
+        situation = tuple(path.parent / name for name in files)
+        for file in situation:
+            if not file.is_file():
+                raise ScenarioError(f"{path}: situation: there is no file {file}")
+        scenario = cls(
+            path=path,
+            situation=situation,
+            plan=parse_term(content.plan, where=f"{path}: plan"),
+            parameters={n: _parameter(v, f"{path}: parameter {n}") for n, v in content.parameters.items()},
+            knowledge={n: _plain(v) for n, v in content.knowledge.items()},
+            robot=content.robot,
+            duration=None if content.duration is None else float(content.duration),
+            seed=content.seed,
+        )
+        return scenario.with_settings(settings or {})
+
+    def with_settings(self, settings: Mapping[str, str | float]) -> Scenario:
+        """Return the scenario with other values of parameters or of the knowledge base.
+
+        Raises:
+            UnknownNameError: If a setting names no parameter.
+            ScenarioError: If a value has the wrong unit.
+        """
+        parameters, knowledge = dict(self.parameters), dict(self.knowledge)
+        for name, value in settings.items():
+            if "." in name:
+                knowledge[name] = _plain(value)
+                continue
+            match = [known for known in parameters if known == name] or [
+                known for known in parameters if known.lower() == name.lower()
+            ]
+            if len(match) != 1:
+                raise UnknownNameError.of("parameter", name, parameters, where=str(self.path))
+            parameters[match[0]] = _setting(value, parameters[match[0]], f"{self.path}: {match[0]} = {value}")
+        return replace(self, parameters=parameters, knowledge=knowledge)
+
+    def knowledge_base(self) -> KnowledgeBase:
+        """Return the knowledge base of the situation, with this scenario's values.
+
+        Raises:
+            UnknownNameError: If a parameter or a knowledge value names nothing that is there.
+        """
+        base = KnowledgeBase.load(*self.situation)
+        for name, parameter in self.parameters.items():
+            if isinstance(parameter.value, str) and parameter.value not in base.individuals:
+                raise UnknownNameError.of("individual", parameter.value, base.individuals, f"{self.path}: parameter {name}")
+        return base.with_values(self.knowledge) if self.knowledge else base
+
+    def bound_plan(self) -> Value:
+        """Return the plan with each variable replaced by its number (SI) or the name of its individual."""
+        return bind(self.plan, {name: parameter.value for name, parameter in self.parameters.items()})
+
+
+def variables(value: Value) -> Iterator[str]:
+    """Yield the names of the variables in ``value``, as often as they occur."""
+    if isinstance(value, Variable):
+        yield value.name
+    elif isinstance(value, Term):
+        for argument in value.args:
+            yield from variables(argument)
+    elif isinstance(value, tuple):
+        for item in value:
+            yield from variables(item)
+
+
+def bind(value: Value, values: Mapping[str, float | str]) -> Value:
+    """Return ``value`` with its variables replaced."""
+    if isinstance(value, Variable):
+        return values[value.name]
+    if isinstance(value, Term):
+        return Term(value.functor, tuple(bind(argument, values) for argument in value.args))
+    if isinstance(value, tuple):
+        return tuple(bind(item, values) for item in value)
+    return value
+
+
+def _read(path: Path) -> _ScenarioFile:
+    try:
+        table = tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ScenarioError(f"{path}: cannot read the scenario: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise ScenarioError(f"{path}: the scenario is not UTF-8 text") from error
+    except tomllib.TOMLDecodeError as error:
+        message = str(error)
+        line = re.search(r"at line (\d+)", message)
+        place = f"{path}:{line.group(1)}" if line else str(path)
+        raise ScenarioError(f"{place}: TOML syntax: {message}") from error
+    try:
+        return _ScenarioFile.model_validate(table)
+    except ValidationError as error:
+        raise ScenarioError(f"{path}: {_first_problem(error, table)}") from error
+
+
+def _first_problem(error: ValidationError, table: Mapping[str, Any]) -> str:
+    problem = error.errors(include_url=False)[0]
+    keys = [str(key) for key in problem["loc"]]
+    if problem["type"] == "extra_forbidden" and len(keys) == 1:
+        return f"unknown key {keys[0]!r}; known: {', '.join(_ScenarioFile.model_fields)}"
+    if problem["type"] == "missing" and len(keys) == 1:
+        return f"the key {keys[0]!r} is missing; needed: situation, plan"
+    if keys[0] == "parameters" and len(keys) > 1:
+        return f"parameter {keys[1]}: give a number, the name of an individual, or {{ value = 20, unit = \"N\" }}"
+    if keys[0] == "knowledge" and len(keys) > 1:
+        return f"knowledge: {keys[1]}: give a number, a text or true/false; write the name in quotes, \"egg1.mass\""
+    given: object = table.get(keys[0])
+    return f"{keys[0]} = {given!r}: {problem['msg'].lower()}"
+
+
+def _parameter(value: float | str | _ParameterTable, where: str) -> Parameter:
+    if isinstance(value, _ParameterTable):
+        return _quantity(float(value.value), value.unit, where)
+    if isinstance(value, str):
+        read = read_quantity(value)
+        return Parameter(value) if read is None else _quantity(*read, where)
+    return Parameter(float(value))
+
+
+def _quantity(number: float, unit: str, where: str) -> Parameter:
+    try:
+        symbol = si_symbol(unit_of(unit))
+        return Parameter(to_si(number, unit), None if symbol == "1" else symbol)
+    except InputError as error:
+        raise ScenarioError(f"{where}: {error}") from error
+
+
+def _setting(value: str | float, old: Parameter, where: str) -> Parameter:
+    read = read_quantity(value) if isinstance(value, str) else (float(value), "")
+    if read is None:
+        return Parameter(str(value))
+    number, unit = read
+    if not unit:
+        return Parameter(number, old.unit)
+    new = _quantity(number, unit, where)
+    if old.unit is not None and new.unit != old.unit:
+        raise ScenarioError(f"{where}: unit {unit!r} does not fit: a unit such as {old.unit!r} is needed")
+    return new
+
+
+def _plain(value: bool | float | str) -> float | str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return value
+    return float(value)
+
+
+def _listed(names: Mapping[str, object] | list[str]) -> str:
+    return ", ".join(sorted(names)) or "none"
