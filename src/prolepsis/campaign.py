@@ -1,0 +1,144 @@
+"""A campaign: the same scenario at several values, each a projection in a process of its own."""
+
+from __future__ import annotations
+
+import itertools
+import multiprocessing
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from dataclasses import dataclass
+from pathlib import Path
+
+from prolepsis.errors import InputError, InvalidSimulationError, ProlepsisError
+from prolepsis.outcome import Grasp, judge_grasp
+from prolepsis.projection import project, read_scenario
+from prolepsis.scenario import Scenario
+from prolepsis.terms import Value
+
+WORKERS = 2
+"""Projections at a time; each takes one core."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Row:
+    """What came out at one value, or why nothing did."""
+
+    values: Mapping[str, float | str]
+    """The swept values of this run by name, as given."""
+    level: float | None = None
+    """Commanded force of the grasp [N], also when the value is the name of a level."""
+    grasp: Grasp | None = None
+    """What became of the grasp, if the plan has one."""
+    answers: Sequence[Mapping[str, Value]] | None = None
+    """Answers to the goal, if one was given."""
+    error: str | None = None
+    """Why the run gave no answer, in one line."""
+    invalid: bool = False
+    """Whether it was the physics that failed."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Transition:
+    """Two neighbouring levels between which the outcome changes."""
+
+    below: Grasp
+    """At the lower level."""
+    above: Grasp
+    """At the higher level."""
+    low: float
+    """The lower level [N]."""
+    high: float
+    """The higher level [N]."""
+
+    @property
+    def force(self) -> float:
+        """Middle of the two levels [N]; the true transition lies within ``(high - low) / 2`` of it."""
+        return (self.low + self.high) / 2
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Outcomes:
+    """One row for each combination of values, in the order given."""
+
+    rows: tuple[Row, ...]
+    """Outcomes, or errors."""
+
+    def transitions(self) -> tuple[Transition, ...]:
+        """Return where the outcome changes from one force level to the next higher one."""
+        ranked = sorted(
+            ((row.level, row.grasp) for row in self.rows if row.grasp is not None and row.level is not None),
+            key=lambda pair: pair[0],
+        )
+        return tuple(
+            Transition(below=below, above=above, low=low, high=high)
+            for (low, below), (high, above) in itertools.pairwise(ranked)
+            if below.outcome != above.outcome
+        )
+
+
+def sweep(
+    scenario: Scenario | str | Path,
+    over: Mapping[str, Sequence[float | str]],
+    *,
+    ask: str | None = None,
+    settings: Mapping[str, float | str] | None = None,
+    limit: int | None = None,
+    workers: int = WORKERS,
+    progress: Callable[[str, float], None] | None = None,
+) -> Outcomes:
+    """Project a scenario at every combination of values.
+
+    Args:
+        scenario: A scenario, or its TOML file.
+        over: Values by the name of a parameter or knowledge value, ``{"Force": [5, 20]}``.
+        ask: Goal to ask of every run.
+        settings: Values that are the same in all runs.
+        limit: Greatest number of answers a run.
+        workers: Number of processes.
+        progress: Called with what is done and the fraction done.
+
+    Returns:
+        The outcomes, in the order of the values. A run that fails is a row with its error.
+
+    Raises:
+        InputError: If the scenario or the name of a value is wrong, so that no run could succeed.
+    """
+    if not over or not all(over.values()):
+        raise InputError("there is nothing to sweep over; give at least one name with at least one value")
+    names = list(over)
+    runs = [dict(zip(names, values, strict=True)) for values in itertools.product(*over.values())]
+    # What is wrong with a file or a name is told once, before any process starts.
+    base = read_scenario(scenario, settings or {})
+    scenarios = [base.with_settings(run) for run in runs]
+    rows: dict[int, Row] = {}
+    # A forked process would inherit the open OpenGL and Prolog connections of this one.
+    context = multiprocessing.get_context("spawn")
+    pool = ProcessPoolExecutor(min(workers, len(runs)), mp_context=context)
+    try:
+        futures: dict[Future[Row], int] = {
+            pool.submit(_run, scenarios[i], run, ask, limit): i for i, run in enumerate(runs)
+        }
+        for done, future in enumerate(as_completed(futures), start=1):
+            rows[futures[future]] = future.result()
+            if progress is not None:
+                progress(f"{done} of {len(runs)} runs", done / len(runs))
+    finally:
+        pool.shutdown(cancel_futures=True)
+    return Outcomes(rows=tuple(rows[i] for i in range(len(runs))))
+
+
+def _run(scenario: Scenario, values: dict[str, float | str], ask: str | None, limit: int | None) -> Row:
+    try:
+        result = project(scenario)
+        answers = None if ask is None else result.ask(ask, limit)
+        grasp = judge_grasp(result.timeline, result.log) if result.timeline.select(type="grasping") else None
+    except ProlepsisError as error:
+        return Row(values=values, error=str(error), invalid=isinstance(error, InvalidSimulationError))
+    return Row(values=values, level=_newtons(grasp, result.scene.number), grasp=grasp, answers=answers)
+
+
+def _newtons(grasp: Grasp | None, number: Callable[[str, str], float | None]) -> float | None:
+    """Return the commanded force [N] of a grasp; of a named level, what the knowledge base says."""
+    if grasp is None or grasp.level is None:
+        return None
+    return number(grasp.level, "force") if isinstance(grasp.level, str) else float(grasp.level)

@@ -1,0 +1,203 @@
+"""Temporal projection: from a scenario to a timeline that can be asked, and to a folder and back."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any, cast
+
+from prolepsis.domain import Domain
+from prolepsis.errors import InputError, LogError, ScenarioError
+from prolepsis.log import Log
+from prolepsis.log_files import read_log_files, write_log_files
+from prolepsis.scenario import Parameter, Scenario
+from prolepsis.scene.scene import Scene
+from prolepsis.sealed import check_replaceable, read_sealed, to_json, write_sealed
+from prolepsis.terms import Value, format_value, parse_term
+from prolepsis.timeline import Timeline
+
+Progress = Callable[[str, float], None]
+"""Called with what is being done and the fraction of it that is done."""
+
+SCENARIO, DOMAIN, TIMELINE, WORLD = "scenario.json", "domain.json", "timeline.json", "world.xml"
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Projection:
+    """One scenario, what happened in it, and what that means in symbols."""
+
+    scenario: Scenario
+    """What was asked for, all parameters and overrides resolved."""
+    scene: Scene
+    """The things at the start, and what is known of them."""
+    log: Log
+    """What the simulation left behind."""
+    timeline: Timeline
+    """Which fluents held and which events occurred."""
+    world: str
+    """The world file (MJCF), which the plain MuJoCo viewer opens."""
+
+    def ask(self, goal: str, limit: int | None = None) -> list[dict[str, Value]]:
+        """Return the answers to a Prolog goal: ``[]`` means no, ``[{}]`` means yes. See ``Timeline.ask``."""
+        return self.timeline.ask(goal, limit=limit)
+
+    def save(self, folder: str | Path) -> None:
+        """Write everything into a sealed folder; an earlier one of ours is replaced.
+
+        Raises:
+            InputError: If ``folder`` holds something that is not ours.
+        """
+        write_sealed(folder, self._write)
+
+    @classmethod
+    def load(cls, folder: str | Path) -> Projection:
+        """Return the projection saved in ``folder``. Nothing is simulated or recognized anew.
+
+        Raises:
+            LogError: If the folder is not whole, or holds no projection.
+        """
+        path = read_sealed(folder)
+        timeline = _read_timeline(path)
+        log = read_log_files(path)
+        try:
+            scenario = _scenario(json.loads((path / SCENARIO).read_text(encoding="utf-8")), path)
+            world = (path / WORLD).read_text(encoding="utf-8")
+        except (OSError, KeyError, TypeError, ValueError, InputError) as error:
+            raise LogError(f"{path}: holds no whole projection: {error}") from None
+        scene = Scene(things=log.things, domain=timeline.domain, gravity=log.gravity)
+        return cls(scenario=scenario, scene=scene, log=log, timeline=timeline, world=world)
+
+    def _write(self, path: Path) -> None:
+        write_log_files(self.log, path)
+        (path / WORLD).write_text(self.world, encoding="utf-8")
+        (path / DOMAIN).write_text(to_json(asdict(self.timeline.domain)), encoding="utf-8")
+        facts = {"dt": self.timeline.dt, "duration": self.timeline.duration, "facts": self.timeline.to_json()}
+        (path / TIMELINE).write_text(to_json(facts), encoding="utf-8")
+        names = _copy_names(self.scenario.situation)
+        for name, source in names.items():
+            shutil.copyfile(source, path / name)
+        (path / SCENARIO).write_text(to_json(_scenario_row(self.scenario, list(names))), encoding="utf-8")
+
+
+def project(
+    scenario: Scenario | str | Path,
+    *,
+    out: str | Path | None = None,
+    settings: Mapping[str, float | str] | None = None,
+    progress: Progress | None = None,
+    **parameters: float | str,
+) -> Projection:
+    """Simulate a scenario, recognize what happens, and return all of it.
+
+    Args:
+        scenario: A scenario, or its TOML file.
+        out: Folder to save the projection in.
+        settings: Values by name, of parameters (``Force``) and of the knowledge base (``eggshell3.friction``).
+        progress: Called from time to time with the stage and the fraction of it done.
+        parameters: More settings of parameters, ``Force=25`` or ``force="force7"``.
+
+    Raises:
+        InputError: If anything given is wrong; the subclass tells what.
+        InvalidSimulationError: If the physics went unstable.
+    """
+    read = read_scenario(scenario, {**(settings or {}), **parameters})
+    if out is not None:
+        check_replaceable(out)
+
+    def tell(stage: str, fraction: float) -> None:
+        if progress is not None:
+            progress(stage, fraction)
+
+    tell("reading the knowledge", 0.0)
+    knowledge = read.knowledge_base()
+    # What physics imports takes a moment, and a wrong scenario is refused before it.
+    from prolepsis.fluents import recognize
+    from prolepsis.programs import read_program
+    from prolepsis.scene import compile_world, compose
+    from prolepsis.simulation import simulate
+
+    scene = compose(knowledge)
+    program = read_program(read.bound_plan(), scene)
+    tell("building the world", 0.0)
+    world = compile_world(scene, seed=read.seed)
+    log = simulate(
+        world,
+        program,
+        duration=read.duration,
+        seed=read.seed,
+        progress=lambda fraction: tell("simulating", fraction),
+    )
+    tell("recognizing", 0.0)
+    timeline = recognize(log, domain=scene.domain)
+    result = Projection(scenario=read, scene=scene, log=log, timeline=timeline, world=world.xml())
+    if out is not None:
+        tell("saving", 0.0)
+        result.save(out)
+    return result
+
+
+def read_scenario(scenario: Scenario | str | Path, settings: Mapping[str, float | str]) -> Scenario:
+    """Return a scenario, read from its file if need be, with ``settings`` applied."""
+    read = scenario if isinstance(scenario, Scenario) else Scenario.load(scenario)
+    return read.with_settings(settings)
+
+
+def read_timeline(folder: str | Path) -> Timeline:
+    """Return the timeline of a saved projection, without reading its log's tables into memory.
+
+    Raises:
+        LogError: If the folder is not whole, or holds no projection.
+    """
+    return _read_timeline(read_sealed(folder))
+
+
+def _read_timeline(path: Path) -> Timeline:
+    try:
+        rows: dict[str, Any] = json.loads((path / TIMELINE).read_text(encoding="utf-8"))
+        domain: dict[str, Any] = json.loads((path / DOMAIN).read_text(encoding="utf-8"))
+        known = Domain(**{name: tuple(tuple(row) for row in value) for name, value in domain.items()})
+        return Timeline.from_json(rows["facts"], dt=rows["dt"], duration=rows["duration"], domain=known)
+    except (OSError, KeyError, TypeError, ValueError, InputError) as error:
+        raise LogError(f"{path}: holds no timeline: {error}") from None
+
+
+def _copy_names(sources: tuple[Path, ...]) -> dict[str, Path]:
+    """Return for each situation file the name of its copy, distinct also when the files' names are not."""
+    names: dict[str, Path] = {}
+    for i, source in enumerate(sources):
+        names[source.name if source.name not in names else f"{i}_{source.name}"] = source
+    return names
+
+
+def _scenario_row(scenario: Scenario, situation: list[str]) -> dict[str, Any]:
+    return {
+        "name": Path(scenario.path).name,
+        "situation": situation,
+        "plan": format_value(scenario.plan),
+        "bound_plan": format_value(scenario.bound_plan()),
+        "parameters": {name: {"value": each.value, "unit": each.unit} for name, each in scenario.parameters.items()},
+        "knowledge": dict(scenario.knowledge),
+        "robot": scenario.robot,
+        "duration": scenario.duration,
+        "seed": scenario.seed,
+    }
+
+
+def _scenario(row: dict[str, Any], path: Path) -> Scenario:
+    parameters: Mapping[str, Any] = row["parameters"]
+    plan = parse_term(row["plan"], where=SCENARIO)
+    if not isinstance(row["seed"], int):
+        raise ScenarioError(f"{SCENARIO}: seed is not a whole number")
+    return Scenario(
+        path=path / cast(str, row["name"]),
+        situation=tuple(path / name for name in row["situation"]),
+        plan=plan,
+        parameters={name: Parameter(value=each["value"], unit=each["unit"]) for name, each in parameters.items()},
+        knowledge=row["knowledge"],
+        robot=row["robot"],
+        duration=row["duration"],
+        seed=row["seed"],
+    )
