@@ -1,0 +1,182 @@
+"""The recorder: copies of poses and contacts while the run goes on, turned into log columns at its end.
+
+It reads the simulation and changes nothing in it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from prolepsis.log import Contacts
+from prolepsis.state import State
+from prolepsis.things import FloatArray, IntArray
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class _Version:
+    """What holds while the model stays the same."""
+
+    carrier: IntArray
+    offsets: FloatArray
+    body_of: IntArray
+    thing_of_geom: IntArray
+
+
+@dataclass(kw_only=True)
+class Recorder:
+    """Raw copies, in the order of time."""
+
+    versions: list[_Version] = field(default_factory=list["_Version"])
+    poses: list[tuple[int, FloatArray, FloatArray]] = field(default_factory=list[tuple[int, FloatArray, FloatArray]])
+    contacts: list[tuple[int, int, float, IntArray, IntArray, FloatArray, FloatArray, FloatArray]] = field(
+        default_factory=list[tuple[int, int, float, IntArray, IntArray, FloatArray, FloatArray, FloatArray]]
+    )
+    _seen: int = -1
+
+    def note_version(self, state: State) -> None:
+        """Keep the maps of a model that is new."""
+        if self._seen == state.version:
+            return
+        self._seen = state.version
+        body_of = np.zeros(len(state.carrier), dtype=np.int64)
+        for body, thing in enumerate(state.body_thing):
+            if thing >= 0:
+                body_of[thing] = body
+        self.versions.append(
+            _Version(
+                carrier=state.carrier.copy(),
+                offsets=state.offsets.copy(),
+                body_of=body_of,
+                thing_of_geom=state.body_thing[state.model.geom_bodyid],
+            )
+        )
+
+    def substep(self, state: State, tick: int, step: float) -> None:
+        """Copy the contacts of one substep of length ``step`` [s]."""
+        data = state.data
+        if data.ncon:
+            contact = data.contact
+            self.contacts.append(
+                (
+                    tick,
+                    len(self.versions) - 1,
+                    step,
+                    contact.geom.copy(),
+                    contact.efc_address.copy(),
+                    contact.frame.copy(),
+                    contact.pos.copy(),
+                    data.efc_force.copy(),
+                )
+            )
+
+    def tick(self, state: State) -> None:
+        """Copy the poses at the start of a tick."""
+        self.poses.append((len(self.versions) - 1, state.data.xpos.copy(), state.data.xquat.copy()))
+
+    def pose_columns(self) -> tuple[FloatArray, IntArray]:
+        """Return poses, shape (T, n, 7), and carriers, shape (T, n)."""
+        count = len(self.versions[0].carrier)
+        poses = np.zeros((len(self.poses), count, 7))
+        carriers = np.zeros((len(self.poses), count), dtype=np.int64)
+        versions = np.array([row[0] for row in self.poses])
+        last = np.tile([0.0, 0, 0, 1, 0, 0, 0], (count, 1))
+        for number, version in enumerate(self.versions):
+            ticks = np.flatnonzero(versions == number)
+            if not len(ticks):
+                continue
+            position = np.stack([self.poses[t][1] for t in ticks])
+            turn = np.stack([self.poses[t][2] for t in ticks])
+            carried = version.carrier >= 0
+            body = version.body_of[version.carrier]
+            outer_p, outer_q = position[:, body], turn[:, body]
+            inner_p, inner_q = version.offsets[:, :3], version.offsets[:, 3:]
+            block = np.concatenate([outer_p + _rotated(outer_q, inner_p), _product(outer_q, inner_q)], axis=2)
+            # What is no body of its own keeps the pose at which it was last seen.
+            block[:, ~carried] = last[~carried]
+            poses[ticks] = block
+            carriers[ticks] = version.carrier
+            last = block[-1]
+        return poses, carriers
+
+    def contact_columns(self, dt: float) -> Contacts:
+        """Return one row for each pair of geoms and tick: forces averaged over the tick of length ``dt`` [s]."""
+        if not self.contacts:
+            none = np.zeros(0, dtype=np.int64)
+            return Contacts(
+                tick=none,
+                a=none,
+                b=none,
+                force=np.zeros((0, 3)),
+                normal=np.zeros((0, 3)),
+                point=np.zeros((0, 3)),
+                peak=np.zeros(0),
+            )
+        counts = np.array([len(row[4]) for row in self.contacts])
+        tick = np.repeat([row[0] for row in self.contacts], counts)
+        version = np.repeat([row[1] for row in self.contacts], counts)
+        step = np.repeat([row[2] for row in self.contacts], counts)
+        base = np.repeat(np.cumsum([0, *(len(row[7]) for row in self.contacts[:-1])]), counts)
+        geoms = np.concatenate([row[3] for row in self.contacts])
+        address = np.concatenate([row[4] for row in self.contacts])
+        frame = np.concatenate([row[5] for row in self.contacts]).reshape(-1, 3, 3)
+        point = np.concatenate([row[6] for row in self.contacts])
+        efc = np.concatenate([row[7] for row in self.contacts])
+        active = address >= 0
+        tick, version, step, geoms, frame, point = (
+            column[active] for column in (tick, version, step, geoms, frame, point)
+        )
+        local = efc[(base + address)[active][:, None] + np.arange(3)]
+        force = np.einsum("cij,ci->cj", frame, local)
+        normal_force = local[:, 0]
+        things = np.zeros_like(geoms)
+        for number, kept in enumerate(self.versions):
+            chosen = version == number
+            things[chosen] = kept.thing_of_geom[geoms[chosen]]
+        flipped = things[:, 0] > things[:, 1]
+        sign = np.where(flipped, -1.0, 1.0)
+        low = np.where(flipped, things[:, 1], things[:, 0])
+        high = np.where(flipped, things[:, 0], things[:, 1])
+        keep = (normal_force > 0) & (low >= 0) & (low != high)
+        columns = (tick, low, high, version, np.where(flipped, geoms[:, 1], geoms[:, 0]), np.where(flipped, geoms[:, 0], geoms[:, 1]))
+        key = np.stack([column[keep] for column in columns], axis=1)
+        rows, group = np.unique(key, axis=0, return_inverse=True)
+        group = group.ravel()
+        size = len(rows)
+        weight = (normal_force * step)[keep]
+        total = np.bincount(group, weights=weight, minlength=size)
+
+        def summed(values: FloatArray, factor: FloatArray) -> FloatArray:
+            return np.stack([np.bincount(group, weights=values[:, k] * factor, minlength=size) for k in range(3)], axis=1)
+
+        normal = summed((frame[:, 0] * sign[:, None])[keep], weight)
+        length = np.linalg.norm(normal, axis=1, keepdims=True)
+        # The peak is that of the pair at one substep, so contact points of the same substep add up first.
+        substep = np.repeat(np.arange(len(self.contacts)), counts)[active][keep]
+        moment, at = np.unique(np.stack([group, substep], axis=1), axis=0, return_inverse=True)
+        peak = np.zeros(size)
+        np.maximum.at(peak, moment[:, 0], np.bincount(at.ravel(), weights=normal_force[keep]))
+        return Contacts(
+            tick=rows[:, 0],
+            a=rows[:, 1],
+            b=rows[:, 2],
+            force=summed((force * sign[:, None])[keep], step[keep]) / dt,
+            normal=normal / np.where(length > 0, length, 1),
+            point=summed(point[keep], weight) / total[:, None],
+            peak=peak,
+        )
+
+
+def _rotated(quaternions: FloatArray, vectors: FloatArray) -> FloatArray:
+    """Return ``vectors``, shape (n, 3), turned by unit ``quaternions``, shape (T, n, 4)."""
+    w, axis = quaternions[..., :1], quaternions[..., 1:]
+    twice = 2 * np.cross(axis, vectors)
+    return vectors + w * twice + np.cross(axis, twice)
+
+
+def _product(outer: FloatArray, inner: FloatArray) -> FloatArray:
+    """Return quaternion products, shape (T, n, 4), of ``outer``, shape (T, n, 4), and ``inner``, shape (n, 4)."""
+    w = outer[..., 0] * inner[..., 0] - (outer[..., 1:] * inner[..., 1:]).sum(axis=-1)
+    axis = outer[..., :1] * inner[..., 1:] + inner[..., :1] * outer[..., 1:] + np.cross(outer[..., 1:], inner[..., 1:])
+    return np.concatenate([w[..., None], axis], axis=-1)

@@ -1,0 +1,220 @@
+"""A brittle shell as a graph of pieces joined by elastic bonds: which bonds does a set of contact forces overload?
+
+The forces on the pieces, less the inertial forces of the free body (inertial relief), stretch and bend the
+bonds. One matrix, computed once for a graph, turns forces into bond loads. A bond whose greatest tensile
+stress exceeds its strength gives way.
+
+Source: frame elements (any text on the finite element method); Rankine's criterion for brittle materials.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from prolepsis.things import BoolArray, FloatArray, IntArray
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class BondGraph:
+    """n pieces and m elastic bonds; positions are in one common frame, that of the intact body."""
+
+    nodes: IntArray
+    """Number of each piece in the intact shell, shape (n,), ascending."""
+    centres: FloatArray
+    """Centres of the pieces [m], shape (n, 3)."""
+    normals: FloatArray
+    """Outward unit normals, shape (n, 3)."""
+    masses: FloatArray
+    """Mass that each piece carries, contents included [kg], shape (n,)."""
+    bonds: IntArray
+    """Joined pieces as positions in ``nodes``, shape (m, 2)."""
+    widths: FloatArray
+    """Lengths of the common edges [m], shape (m,)."""
+    strengths: FloatArray
+    """Tensile stress that each bond bears [Pa], shape (m,)."""
+    weakened: BoolArray
+    """Whether a bond lies at the tip of a crack and has lost strength for it, shape (m,)."""
+    thickness: float
+    """Thickness of the shell [m]."""
+    youngs_modulus: float
+    """Young's modulus [Pa]."""
+    poisson_ratio: float
+    """Poisson's ratio [1]."""
+    spread: float
+    """Length over which a contact force is shared among pieces [m]."""
+    response: FloatArray = field(default_factory=lambda: np.zeros((0, 0)))
+    """Bond force components per node wrench, shape (6 m, 6 n); filled by ``assembled``."""
+
+    def assembled(self) -> BondGraph:
+        """Return the graph with its response matrix."""
+        return replace(self, response=_response(self))
+
+    def wrenches_per_force(self, points: FloatArray) -> FloatArray:
+        """Return how unit forces at points act on the pieces near them.
+
+        Args:
+            points: Points of attack in the common frame [m], shape (c, 3).
+
+        Returns:
+            Force [1] and moment about its centre [m] of each piece, per force along x, y and z, shape (c, 6 n, 3).
+        """
+        arms = points[:, None, :] - self.centres[None, :, :]
+        squared = np.einsum("cij,cij->ci", arms, arms)
+        weights = np.exp((squared.min(axis=1, keepdims=True) - squared) / (2 * self.spread**2))
+        weights /= weights.sum(axis=1, keepdims=True)
+        x, y, z = np.moveaxis(arms * weights[:, :, None], 2, 0)
+        wrenches = np.zeros((len(points), len(self.nodes), 6, 3))
+        for k in range(3):
+            wrenches[:, :, k, k] = weights
+        wrenches[:, :, 3, 1], wrenches[:, :, 3, 2] = -z, y
+        wrenches[:, :, 4, 0], wrenches[:, :, 4, 2] = z, -x
+        wrenches[:, :, 5, 0], wrenches[:, :, 5, 1] = -y, x
+        return wrenches.reshape(len(points), 6 * len(self.nodes), 3)
+
+    def stresses(self, points: FloatArray, forces: FloatArray) -> FloatArray:
+        """Return the greatest tensile stress in each bond under contact forces.
+
+        Args:
+            points: Points of attack in the common frame [m], shape (c, 3).
+            forces: Forces in the same frame [N], shape (c, 3).
+
+        Returns:
+            Stress [Pa], shape (m,).
+        """
+        wrench = np.einsum("cij,cj->i", self.wrenches_per_force(points), forces)
+        return self.tensile((self.response @ wrench).reshape(-1, 6))
+
+    def tensile(self, components: FloatArray) -> FloatArray:
+        """Return the greatest tensile stress of each bond [Pa], shape (..., m), from its six force components.
+
+        Args:
+            components: Axial, two shear forces [N], twist, bending, in-plane bending [N m], shape (..., m, 6).
+        """
+        area = self.widths * self.thickness
+        axial = components[..., 0] / area
+        shear = np.hypot(components[..., 1], components[..., 2]) / area
+        bending = 6 * np.abs(components[..., 4]) / (self.widths * self.thickness**2)
+        in_plane = 6 * np.abs(components[..., 5]) / (self.thickness * self.widths**2)
+        stress = axial + bending + in_plane
+        return stress / 2 + np.sqrt((stress / 2) ** 2 + shear**2)
+
+    def without(self, broken: BoolArray, weakening: float) -> BondGraph:
+        """Return the graph without the ``broken`` bonds, shape (m,), its crack tips weakened.
+
+        Args:
+            broken: True for each bond that has given way.
+            weakening: Factor on the strength of the bonds that share a piece with a broken one [1].
+        """
+        touched = np.zeros(len(self.nodes), dtype=bool)
+        touched[self.bonds[broken].ravel()] = True
+        tip = touched[self.bonds].any(axis=1) & ~self.weakened
+        strengths = np.where(tip, self.strengths * weakening, self.strengths)
+        kept = ~broken
+        return replace(
+            self,
+            bonds=self.bonds[kept],
+            widths=self.widths[kept],
+            strengths=strengths[kept],
+            weakened=(self.weakened | tip)[kept],
+            response=np.zeros((0, 0)),
+        )
+
+    def fragments(self) -> tuple[BondGraph, ...]:
+        """Return the connected parts, ordered by their lowest piece."""
+        label = np.arange(len(self.nodes))
+        for _ in range(len(self.nodes)):
+            lowest = np.minimum(label[self.bonds[:, 0]], label[self.bonds[:, 1]])
+            new = label.copy()
+            np.minimum.at(new, self.bonds[:, 0], lowest)
+            np.minimum.at(new, self.bonds[:, 1], lowest)
+            if np.array_equal(new, label):
+                break
+            label = new
+        return tuple(self._part(label == k) for k in np.unique(label))
+
+    def _part(self, chosen: BoolArray) -> BondGraph:
+        position = np.cumsum(chosen) - 1
+        inside = chosen[self.bonds].all(axis=1) if len(self.bonds) else np.zeros(0, dtype=bool)
+        return replace(
+            self,
+            nodes=self.nodes[chosen],
+            centres=self.centres[chosen],
+            normals=self.normals[chosen],
+            masses=self.masses[chosen],
+            bonds=position[self.bonds[inside]],
+            widths=self.widths[inside],
+            strengths=self.strengths[inside],
+            weakened=self.weakened[inside],
+            response=np.zeros((0, 0)),
+        )
+
+
+def _response(graph: BondGraph) -> FloatArray:
+    """Return bond force components per node wrench with inertial relief, shape (6 m, 6 n)."""
+    n, m = len(graph.nodes), len(graph.bonds)
+    if m == 0:
+        return np.zeros((0, 6 * n))
+    strain, stiffness = _strain(graph)
+    rigid = _rigid_modes(graph.centres)
+    inertia = np.repeat(graph.masses[:, None], 6, axis=1)
+    inertia[:, 3:] *= graph.thickness**2  # to the relief, pieces are as good as points
+    weighted = inertia.ravel()[:, None] * rigid
+    relief = np.eye(6 * n) - weighted @ np.linalg.solve(rigid.T @ weighted, rigid.T)
+    stiff = strain.T @ (stiffness[:, None] * strain)
+    basis, _ = np.linalg.qr(rigid)
+    grounded = stiff + np.trace(stiff) / (6 * n) * (basis @ basis.T)
+    # Rotations carry metres less than translations: scale before solving, or the matrix is ill conditioned.
+    scale = 1 / np.sqrt(np.diag(grounded))
+    inverse = scale[:, None] * np.linalg.solve(scale[:, None] * grounded * scale[None, :], scale[:, None] * relief)
+    return stiffness[:, None] * (strain @ inverse)
+
+
+def _strain(graph: BondGraph) -> tuple[FloatArray, FloatArray]:
+    """Return the matrix from node motions to bond deformations, shape (6 m, 6 n), and the bond stiffnesses, (6 m,)."""
+    first, second = graph.bonds.T
+    along = graph.centres[second] - graph.centres[first]
+    length = np.linalg.norm(along, axis=1)
+    x = along / length[:, None]
+    normal = graph.normals[first] + graph.normals[second]
+    normal -= (normal * x).sum(axis=1)[:, None] * x
+    z = normal / np.linalg.norm(normal, axis=1)[:, None]
+    y = np.cross(z, x)
+    axes = np.stack([x, y, z], axis=1)
+    middle = (graph.centres[first] + graph.centres[second]) / 2
+    m, n = len(first), len(graph.nodes)
+    strain = np.zeros((m, 6, n, 6))
+    rows = np.arange(m)
+    for node, sign in ((first, -1.0), (second, 1.0)):
+        arm = middle - graph.centres[node]
+        strain[rows, :3, node, :3] = sign * axes
+        # u_middle = u + theta x arm, so the columns for theta are axes . (e_k x arm).
+        for k in range(3):
+            turned = np.cross(np.eye(3)[k], arm)
+            strain[rows, :3, node, 3 + k] = sign * np.einsum("mij,mj->mi", axes, turned)
+        strain[rows, 3:, node, 3:] = sign * axes
+    e, t, w = graph.youngs_modulus, graph.thickness, graph.widths
+    g = e / (2 * (1 + graph.poisson_ratio))
+    stiffness = np.stack(
+        [
+            e * w * t / length,
+            g * w * t / length,
+            g * w * t / length,
+            g * w * t**3 / (3 * length),
+            e * w * t**3 / (12 * (1 - graph.poisson_ratio**2) * length),
+            e * t * w**3 / (12 * length),
+        ],
+        axis=1,
+    )
+    return strain.reshape(6 * m, 6 * n), stiffness.ravel()
+
+
+def _rigid_modes(centres: FloatArray) -> FloatArray:
+    """Return the six rigid motions of points as columns, shape (6 n, 6)."""
+    n = len(centres)
+    modes = np.zeros((n, 6, 6))
+    modes[:, :3, :3] = np.eye(3)
+    modes[:, 3:, 3:] = np.eye(3)
+    for k in range(3):
+        modes[:, :3, 3 + k] = np.cross(np.eye(3)[k], centres)
+    return modes.reshape(6 * n, 6)

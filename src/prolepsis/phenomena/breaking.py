@@ -1,0 +1,281 @@
+"""Breaking: a fragile thing is one rigid body until its bonds give way under the forces of contact.
+
+Each substep the contact forces on the body load the bonds of its shell. Overloaded bonds detach, their
+neighbours weaken, the load is redistributed at once (a cascade), and where the graph falls apart the parts
+go on as bodies of their own, which may break again.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from prolepsis.phenomena.bond_graph import BondGraph
+from prolepsis.phenomena.shell_calibration import calibrated_graph
+from prolepsis.scene.egg_things import PIECE_COUNT
+from prolepsis.scene.world import MAX_STEP
+from prolepsis.state import ContactForces, State
+from prolepsis.things import FloatArray, Thing
+
+CONTACT_STEP = 2.5e-4
+"""Substep [s] while something is near an intact shell: an impact lasts some 1.5 ms, so six substeps."""
+FRAGMENT_STEP = 5.0e-4
+"""Substep [s] while fragments that may still break are pushed about."""
+DAMPING_RATIO = 0.05
+"""Damping of shell contact [1]: a rigid but brittle shell rebounds well."""
+IMPEDANCE = 0.1
+"""Constant impedance: static and dynamic stiffness then differ by a factor 1 / (1 - 0.1) only."""
+BETWEEN_SAMPLES = 0.9
+"""Margin of the screen for contacts between its sampled points [1]."""
+DRIFT = 3.0e-4
+"""A contact that has moved less than this [m], a twentieth of the spread of its force, loads the same bonds."""
+TOGETHER = 0.9
+"""Bonds within this fraction of the most overloaded one give way with it, which keeps a cascade short."""
+
+
+@dataclass(kw_only=True, slots=True)
+class Fragment:
+    """A rigid part of a broken or intact shell."""
+
+    body: str
+    graph: BondGraph
+    origin: FloatArray
+    """Place of the body's frame in the shell's frame [m], shape (3,)."""
+    calm: float
+    """Contact forces may add up to this before a bond can break [N]."""
+    checked: tuple[FloatArray, FloatArray, float] | None = None
+    """Points, forces and greatest load of the last full check."""
+
+    def is_settled(self, points: FloatArray, forces: FloatArray) -> bool:
+        """Return whether the forces differ so little from those last checked that no bond can have come to break."""
+        if self.checked is None or self.checked[0].shape != points.shape:
+            return False
+        moved = np.abs(points - self.checked[0]).max()
+        changed = np.sqrt(np.einsum("ij,ij->i", *(2 * [forces - self.checked[1]]))).sum()
+        return bool(moved < DRIFT and 1.1 * self.checked[2] + changed / self.calm < 1)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Detachment:
+    """One bond that gave way."""
+
+    thing: int
+    """Index of the whole."""
+    a: int
+    """Index of the first piece."""
+    b: int
+    """Index of the second piece."""
+    force: float
+    """Greatest contact force on the body [N]."""
+
+
+class Breaking:
+    """The controller of one fragile thing."""
+
+    def __init__(self, state: State, thing: Thing, breaking_force: float) -> None:
+        """Attach to ``thing``.
+
+        Args:
+            state: The simulation.
+            thing: An intact thing with an ellipsoidal shell.
+            breaking_force: Force between plates at which this very shell breaks [N].
+        """
+        things = state.world.scene.things
+        names = {t.name: i for i, t in enumerate(things)}
+        shell = next(t for t in things if t.whole == thing.name and "shellThickness" in t.quantities)
+        self.thing = thing
+        self.index = names[thing.name]
+        self.pieces = [names[f"{shell.name}/piece{k}"] for k in range(PIECE_COUNT)]
+        self.blobs = [
+            i for i, t in enumerate(things) if "Blob" in t.roles and things[names[str(t.whole)]].whole == thing.name
+        ]
+        a, b, c = thing.shape.geoms[0].size
+        self.semi_axes = np.array([a, b, c])
+        quantities = shell.quantities
+        unit = calibrated_graph(
+            (a, b, c),
+            PIECE_COUNT,
+            quantities["shellThickness"],
+            quantities["youngsModulus"],
+            quantities["poissonRatio"],
+            thing.mass,
+        )
+        self.weakening = quantities["crackTipWeakening"]
+        self.plate_stiffness = quantities["plateStiffness"]
+        self.pole_ratio = quantities["poleStiffnessRatio"]
+        graph = _scaled(unit, breaking_force)
+        self.fragments = [Fragment(body=thing.name, graph=graph, origin=np.zeros(3), calm=_calm(graph))]
+        self.intact = True
+        self.load = 0.0
+        self.peak = 0.0
+        self._stiffness = 0.0
+        self._version = -1
+        self._watched: dict[int, Fragment] = {}
+        self._set_stiffness(state, None)
+
+    def substep(self, state: State) -> float:
+        """Return the substep that breaking needs now [s]."""
+        if self.intact:
+            return CONTACT_STEP if self._near(state) else MAX_STEP
+        return FRAGMENT_STEP if self.peak > 0.1 * min((f.calm for f in self.fragments), default=math.inf) else MAX_STEP
+
+    def act(self, state: State, contacts: ContactForces) -> list[Detachment]:
+        """Break what the contact forces of the last substep overload, and return the detached bonds."""
+        self.load = 0.0
+        if not len(contacts.normal_force):
+            self.peak = 0.0
+            return []
+        if self._version != state.version:
+            self._version = state.version
+            self._watched = {state.model.body(f.body).id: f for f in self.fragments if len(f.graph.bonds)}
+        detached: list[Detachment] = []
+        self.peak = 0.0
+        for body, fragment in self._watched.items():
+            second = contacts.bodies[:, 1] == body
+            chosen = second | (contacts.bodies[:, 0] == body)
+            if not chosen.any():
+                continue
+            normal = contacts.normal_force[chosen]
+            total = float(normal.sum())
+            self.peak = max(self.peak, total)
+            if self.intact:
+                self._set_stiffness(state, contacts.points[chosen][int(normal.argmax())])
+            if total < fragment.calm:
+                self.load = max(self.load, total / fragment.calm)
+                continue
+            sign = np.where(second[chosen], 1.0, -1.0)[:, None]
+            detached += self._break(state, fragment, contacts.points[chosen], sign * contacts.force[chosen], normal)
+        if detached:
+            self._fall_apart(state)
+        return detached
+
+    def _break(
+        self, state: State, fragment: Fragment, points: FloatArray, forces: FloatArray, normal: FloatArray
+    ) -> list[Detachment]:
+        turn = state.data.body(fragment.body).xmat.reshape(3, 3)
+        local_points = (points - state.data.body(fragment.body).xpos) @ turn + fragment.origin
+        local_forces = forces @ turn
+        if fragment.is_settled(local_points, local_forces):
+            self.load = max(self.load, fragment.checked[2] if fragment.checked else 0.0)
+            return []
+        detached: list[Detachment] = []
+        graph = fragment.graph
+        while len(graph.bonds):
+            ratio = graph.stresses(local_points, local_forces) / graph.strengths
+            worst = float(ratio.max())
+            self.load = max(self.load, worst)
+            fragment.checked = (local_points, local_forces, worst)
+            if worst < 1:
+                break
+            broken = ratio >= max(1.0, TOGETHER * worst)
+            for a, b in graph.nodes[graph.bonds[broken]]:
+                detached.append(
+                    Detachment(
+                        thing=self.index, a=self.pieces[int(a)], b=self.pieces[int(b)], force=float(normal.max())
+                    )
+                )
+            graph = graph.without(broken, self.weakening)
+            if len(graph.fragments()) > 1:
+                break
+            graph = graph.assembled()
+        fragment.graph = graph
+        fragment.calm = _calm(graph) if len(graph.response) else math.inf
+        return detached
+
+    def _fall_apart(self, state: State) -> None:
+        """Give the parts of a graph that is no longer connected bodies of their own."""
+        new: list[Fragment] = []
+        for fragment in self.fragments:
+            parts = fragment.graph.fragments()
+            if len(parts) == 1 and not len(parts[0].response) and len(parts[0].bonds):
+                parts = (parts[0].assembled(),)
+            if len(parts) == 1:
+                new.append(fragment)
+                continue
+            groups = [[self.pieces[int(k)] for k in part.nodes] for part in parts]
+            state.split(fragment.body, groups, self.blobs if self.intact else [])
+            self.intact = False
+            for part, group in zip(parts, groups, strict=True):
+                whole = part.assembled() if len(part.bonds) else part
+                lead = state.world.scene.things[group[0]].name
+                calm = _calm(whole) if len(whole.bonds) else math.inf
+                new.append(Fragment(body=lead, graph=whole, origin=part.centres[0].copy(), calm=calm))
+        self.fragments = new
+
+    def _near(self, state: State) -> bool:
+        geom = state.model.geom(f"{self.thing.name}/0").id
+        return state.data.ncon > 0 and bool((state.data.contact.geom == geom).any())
+
+    def _set_stiffness(self, state: State, point: FloatArray | None) -> None:
+        """Give the contacts of the intact thing the stiffness of its shell where it touches (or will touch, below)."""
+        body = state.data.body(self.thing.name)
+        turn = body.xmat.reshape(3, 3)
+        place = -turn[2] * self.semi_axes if point is None else (point - body.xpos) @ turn
+        unit = place / self.semi_axes
+        along = abs(unit[0]) / math.sqrt(float(unit @ unit))
+        stiffness = local_stiffness(self.semi_axes, along, self.plate_stiffness, self.pole_ratio)
+        if abs(stiffness - self._stiffness) < 0.01 * stiffness:
+            return
+        self._stiffness = stiffness
+        model = state.model
+        geom = model.geom(f"{self.thing.name}/0").id
+        for p in range(model.npair):
+            if geom in (model.pair_geom1[p], model.pair_geom2[p]):
+                bodies = (model.geom_bodyid[model.pair_geom1[p]], model.geom_bodyid[model.pair_geom2[p]])
+                weight = model.body_invweight0[bodies[0], 0] + model.body_invweight0[bodies[1], 0]
+                model.pair_solref[p] = direct_solref(stiffness, weight)
+                model.pair_solimp[p] = (IMPEDANCE, IMPEDANCE, 0.001, 0.5, 2)
+
+
+def local_stiffness(semi_axes: FloatArray, along: float, plate_stiffness: float, pole_ratio: float) -> float:
+    """Return the stiffness of one contact of a lengthy shell [N/m].
+
+    A plate test has two contacts in series, hence the factor 2; the poles are stiffer than the girdle.
+
+    Args:
+        semi_axes: Half lengths, the longest first [m].
+        along: Cosine of the latitude: 0 on the girdle, 1 at a pole.
+        plate_stiffness: Stiffness between plates, mean over the orientations [N/m].
+        pole_ratio: Stiffness between plates standing over lying [1].
+    """
+    longest, other = float(semi_axes[0]), float(semi_axes[1])
+    # Gaussian curvature of a spheroid: radius of the equal sphere from b at the pole's b^2/a to a on the girdle.
+    radius = longest * (other / longest) ** 2 * (1 - along**2) * (longest / other) ** 2 + other**2 / longest * along**2
+    girdle, pole = longest, other**2 / longest
+    share = math.log(girdle / radius) / math.log(girdle / pole) if girdle != pole else 0.5
+    return 2 * plate_stiffness * pole_ratio ** (share - 0.5)
+
+
+def direct_solref(stiffness: float, inverse_mass: float) -> tuple[float, float]:
+    """Return MuJoCo's direct contact reference for a stiffness [N/m] and the bodies' inverse mass [1/kg]."""
+    scaled = stiffness * inverse_mass
+    return (-scaled, -2 * DAMPING_RATIO * math.sqrt(scaled))
+
+
+def _scaled(graph: BondGraph, factor: float) -> BondGraph:
+    return replace(graph, strengths=graph.strengths * factor)
+
+
+def _calm(graph: BondGraph) -> float:
+    """Return a contact force below which no bond can break, wherever it acts: the screen before the full check [N].
+
+    The stress under several forces is at most the sum of the stresses under each alone, in whatever direction it
+    pulls, so the greatest stress under a unit force at sampled points bounds them all.
+    """
+    if not len(graph.bonds):
+        return math.inf
+    points = np.concatenate([graph.centres, graph.centres[graph.bonds].mean(axis=1)])
+    wrenches = np.moveaxis(graph.wrenches_per_force(points), 0, 1).reshape(6 * len(graph.nodes), -1)
+    components = (graph.response @ wrenches).reshape(len(graph.bonds), 6, len(points), 3)
+    bound = graph.tensile(np.linalg.norm(components, axis=3).transpose(2, 0, 1))
+    return float(BETWEEN_SAMPLES / (bound / graph.strengths).max())
+
+
+def strength_of(thing_quantities: dict[str, float], draw: bool, rng: np.random.Generator) -> float:
+    """Return the breaking force of one shell [N]: the mean, or a draw from its distribution."""
+    mean = thing_quantities["breakingForce"]
+    deviation = thing_quantities.get("breakingForceDeviation", 0.0)
+    return mean if not draw else float(max(rng.normal(mean, deviation), 0.2 * mean))
+

@@ -1,0 +1,145 @@
+"""What an action is: a name, typed parameters and a generator of commands; the registry of all actions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from prolepsis.errors import PlanError, UnknownNameError
+from prolepsis.programs.commands import Behaviour
+from prolepsis.scene.scene import Scene
+from prolepsis.terms import Term, Value, Variable
+from prolepsis.things import Thing
+
+KINDS: Mapping[str, str] = {
+    "hand": "name of a gripper",
+    "object": "name of an object",
+    "force": "force of each pad [N], a number or a force level",
+    "length": "[m]",
+    "duration": "[s]",
+    "speed": "[m/s]",
+    "acceleration": "[m/s^2]",
+    "displacement": "list of three lengths along the world's axes [m]",
+}
+"""What an argument of an action may be, with its unit."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Parameter:
+    """One argument of an action."""
+
+    name: str
+    kind: str
+    """One of ``KINDS``."""
+    default: float | None = None
+    """Value when the argument is left out; None if it must be given."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class ActionSpec:
+    """One kind of action."""
+
+    name: str
+    parameters: tuple[Parameter, ...]
+    doc: str
+    """What it does, in a line."""
+    behave: Callable[..., Behaviour] = field(repr=False)
+    """Called with the scene, the first sense and the arguments by name; yields the commands."""
+    check: Callable[..., None] | None = field(default=None, repr=False)
+    """Called with the scene and the arguments before anything runs; raises PlanError if it cannot work."""
+
+    def usage(self) -> str:
+        """Return how it is written: ``lift(Hand, Height, Speed = 0.25 m/s)``."""
+        shown: list[str] = []
+        for parameter in self.parameters:
+            name = parameter.name[0].upper() + parameter.name[1:]
+            shown.append(name if parameter.default is None else f"{name} = {parameter.default:g}")
+        return f"{self.name}({', '.join(shown)})"
+
+
+ACTIONS: dict[str, ActionSpec] = {}
+"""All actions by name; a file in ``actions/`` adds its own with ``action``."""
+
+
+def action(
+    *parameters: Parameter, check: Callable[..., None] | None = None
+) -> Callable[[Callable[..., Behaviour]], Callable[..., Behaviour]]:
+    """Register the decorated generator function as an action of its name; its docstring's first line is for users."""
+
+    def register(behave: Callable[..., Behaviour]) -> Callable[..., Behaviour]:
+        doc = (behave.__doc__ or "").strip().splitlines()[0]
+        ACTIONS[behave.__name__] = ActionSpec(
+            name=behave.__name__, parameters=parameters, doc=doc, behave=behave, check=check
+        )
+        return behave
+
+    return register
+
+
+HAND = Parameter(name="hand", kind="hand")
+OBJECT = Parameter(name="object", kind="object")
+FORCE = Parameter(name="force", kind="force")
+
+
+def bind_arguments(spec: ActionSpec, term: Term, scene: Scene) -> dict[str, Any]:
+    """Return the arguments of an action by name: things for names, SI numbers for quantities.
+
+    Raises:
+        PlanError: If an argument is missing, superfluous or of the wrong kind.
+        UnknownNameError: If an object or a force level does not exist.
+    """
+    needed = sum(parameter.default is None for parameter in spec.parameters)
+    if not needed <= len(term.args) <= len(spec.parameters):
+        raise PlanError(
+            f"plan: {term} has {len(term.args)} argument{'s' * (len(term.args) != 1)}, needed: {spec.usage()}"
+        )
+    bound: dict[str, Any] = {}
+    for k, parameter in enumerate(spec.parameters):
+        if k < len(term.args):
+            bound[parameter.name] = _bind(parameter, term.args[k], term, scene)
+        else:
+            bound[parameter.name] = parameter.default
+    return bound
+
+
+def _bind(parameter: Parameter, value: Value, term: Term, scene: Scene) -> Any:
+    where = f"plan: {parameter.name} of {term}"
+    if isinstance(value, Variable):
+        raise PlanError(f"{where} has no value; give parameter {value.name} one")
+    if parameter.kind in ("hand", "object"):
+        return _bind_thing(parameter, value, where, scene)
+    if parameter.kind == "displacement":
+        if isinstance(value, tuple) and len(value) == 3 and all(isinstance(v, int | float) for v in value):
+            return tuple(_finite(float(v), where) for v in value if isinstance(v, int | float))
+        raise PlanError(f"{where} must be a {KINDS['displacement']}, such as [0.2, 0, 0.1]")
+    if parameter.kind == "force" and isinstance(value, str):
+        newtons = scene.number(value, "force")
+        if newtons is None:
+            levels = [subject for subject, name, _ in scene.domain.values if name == "force"]
+            raise UnknownNameError.of("force level", value, levels, where)
+        return newtons
+    if not isinstance(value, int | float) or isinstance(value, bool):
+        raise PlanError(f"{where} must be a number {KINDS[parameter.kind]}, not {value}")
+    number = _finite(float(value), where)
+    if parameter.kind != "length" and number <= 0:
+        raise PlanError(f"{where} must be positive, not {number:g} {KINDS[parameter.kind]}")
+    return number
+
+
+def _bind_thing(parameter: Parameter, value: Value, where: str, scene: Scene) -> Thing:
+    if not isinstance(value, str):
+        raise PlanError(f"{where} must be the {KINDS[parameter.kind]}, not {value}")
+    choices = [t for t in scene.things if t.whole is None and ("Gripper" in t.roles) == (parameter.kind == "hand")]
+    for thing in choices:
+        if thing.name == value:
+            return thing
+    raise UnknownNameError.of(KINDS[parameter.kind].rsplit(" ", 1)[-1], value, (t.name for t in choices), where)
+
+
+def _finite(number: float, where: str) -> float:
+    if not math.isfinite(number):
+        raise PlanError(f"{where} must be finite, not {number:g}")
+    return number
+

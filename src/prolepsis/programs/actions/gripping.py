@@ -1,0 +1,48 @@
+"""Gripping: grasp an object with a force, close, release."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from prolepsis.programs.action import FORCE, HAND, OBJECT, action
+from prolepsis.programs.actions.motion import CLEARANCE, grasping_width, open_to, reach, within_workspace
+from prolepsis.programs.commands import Behaviour, CloseGripper, Sense
+from prolepsis.robots.hand import HAND as ROBOT
+from prolepsis.scene.scene import Scene
+from prolepsis.things import Thing
+
+SLOWEST, FASTEST = 0.002, 0.006
+"""Guarded closing speeds of a finger [m/s]: touching down at v sqrt(k m) adds 0.3 to 0.8 N."""
+SPEED_PER_FORCE = 0.003
+"""Guarded speed for each newton commanded [m/s/N], between those two: a weak grasp touches more gently."""
+TIMEOUT = 8.0
+"""A closing that has not ended by then has nothing to hold on to [s]."""
+
+
+@action(HAND, FORCE)
+def close(scene: Scene, sense: Sense, *, hand: Thing, force: float) -> Behaviour:
+    """Close the gripper slowly until contact, then raise the force to the given one."""
+    del scene
+    deadline = sense.time + TIMEOUT
+    speed = min(max(SPEED_PER_FORCE * force, SLOWEST), FASTEST)
+    sense = yield (CloseGripper(hand=hand.name, force=force, speed=speed),)
+    while sense.hands[hand.name].motion != 0 and sense.time < deadline:
+        sense = yield ()
+    return sense
+
+
+@action(HAND, OBJECT, FORCE, check=within_workspace)
+def grasp(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, force: float) -> Behaviour:
+    """Reach for the object, then close the gripper with the given force."""
+    way = np.asarray(sense.place(object.name)) - np.asarray(sense.hands[hand.name].position)
+    gap = sense.hands[hand.name].opening - grasping_width(hand, object)
+    if np.abs(way).max() > CLEARANCE or gap < 0 or gap > 2 * CLEARANCE:
+        sense = yield from reach(scene, sense, hand=hand, object=object, speed=0.25)
+    return (yield from close(scene, sense, hand=hand, force=force))
+
+
+@action(HAND)
+def release(scene: Scene, sense: Sense, *, hand: Thing) -> Behaviour:
+    """Open the gripper fully."""
+    del scene
+    return (yield from open_to(hand, ROBOT.max_opening, sense))

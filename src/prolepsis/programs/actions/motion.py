@@ -1,0 +1,146 @@
+"""Moving the hand: reach for an object, lift, carry, hold still, wait."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from prolepsis.errors import PlanError
+from prolepsis.programs.action import HAND, OBJECT, Parameter, action
+from prolepsis.programs.commands import BaseTarget, Behaviour, OpenGripper, Sense
+from prolepsis.robots.hand import HAND as ROBOT
+from prolepsis.robots.hand import rotate
+from prolepsis.scene.extent import extent_along
+from prolepsis.scene.scene import Scene
+from prolepsis.things import Thing, Triple
+
+STANDOFF = 0.08
+"""Before the last straight stretch, the hand stops this far from the object [m]."""
+CLEARANCE = 0.006
+"""The gap exceeds what is to be grasped by this much [m], so that the guarded closing is short."""
+ARRIVED = 1.0e-4
+"""Shorter ways are not worth a move [m]."""
+TICK = 1.0e-3
+"""Period of the commands [s]."""
+OPENING_SPEED = 0.2
+"""Speed of the gap when nothing is held [m/s]."""
+
+SPEED = Parameter(name="speed", kind="speed", default=0.25)
+ACCELERATION = Parameter(name="acceleration", kind="acceleration", default=1.0)
+
+
+def travel(hand: Thing, sense: Sense, displacement: Triple, acceleration: float, speed: float) -> Behaviour:
+    """Move a hand along a straight line, from rest to rest, with the least jerk.
+
+    Args:
+        hand: The hand.
+        sense: What is sensed now.
+        displacement: Where to, from the present target [m].
+        acceleration: Greatest acceleration [m/s^2].
+        speed: Greatest speed [m/s].
+    """
+    start = sense.hands[hand.name].offset
+    distance = float(np.linalg.norm(displacement))
+    # Of the least-jerk profile over T: greatest speed 1.875 d/T, greatest acceleration 5.7735 d/T^2.
+    duration = max(1.875 * distance / speed, (5.7735 * distance / acceleration) ** 0.5)
+    count = max(round(duration / TICK), 1)
+    for k in range(1, count + 1):
+        s = k / count
+        share = s**3 * (10 - 15 * s + 6 * s * s)
+        rate = 30 * s * s * (1 - s) ** 2 / (count * TICK)
+        offset = _added(start, displacement, share)
+        velocity = _added((0.0, 0.0, 0.0), displacement, rate)
+        sense = yield (BaseTarget(hand=hand.name, offset=offset, velocity=velocity),)
+    return sense
+
+
+def stay(duration: float, sense: Sense) -> Behaviour:
+    """Let ``duration`` [s] pass without a command."""
+    for _ in range(max(round(duration / TICK), 1)):
+        sense = yield ()
+    return sense
+
+
+def open_to(hand: Thing, width: float, sense: Sense) -> Behaviour:
+    """Move the pads to a gap of ``width`` [m] and wait until they are there."""
+    del sense
+    sense = yield (OpenGripper(hand=hand.name, width=width, speed=OPENING_SPEED),)
+    while sense.hands[hand.name].motion != 0:
+        sense = yield ()
+    return sense
+
+
+def grasping_width(hand: Thing, object: Thing) -> float:
+    """Return the object's extent between the pads [m]."""
+    return extent_along(object, rotate(hand.orientation, (0.0, 1.0, 0.0)))
+
+
+def _added(start: Triple, step: Triple, share: float) -> Triple:
+    return (start[0] + share * step[0], start[1] + share * step[1], start[2] + share * step[2])
+
+
+def within_workspace(scene: Scene, *, hand: Thing, object: Thing, **_: object) -> None:
+    """Refuse an object that the hand cannot get to or around."""
+    del scene
+    way = np.abs(np.asarray(object.position) - np.asarray(hand.position))
+    if way.max() > ROBOT.workspace:
+        raise PlanError(
+            f"plan: {object.name} is out of reach of {hand.name}: {way.max():.2f} m away, allowed {ROBOT.workspace:g} m"
+        )
+    width = grasping_width(hand, object)
+    if width > ROBOT.max_opening:
+        raise PlanError(
+            f"plan: {object.name} is not graspable: {width * 1000:.0f} mm wide between the pads, "
+            f"{hand.name} opens {ROBOT.max_opening * 1000:.0f} mm"
+        )
+
+
+@action(HAND, OBJECT, SPEED, check=within_workspace)
+def reach(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, speed: float) -> Behaviour:
+    """Open the gripper a little wider than the object and move it around the object's centre."""
+    del scene
+    width = min(grasping_width(hand, object) + CLEARANCE, ROBOT.max_opening)
+    sense = yield from open_to(hand, width, sense)
+    way = np.asarray(sense.place(object.name)) - np.asarray(sense.hands[hand.name].position)
+    forward = rotate(hand.orientation, (1.0, 0.0, 0.0))
+    ahead = float(way @ forward)
+    first = way - min(ahead, STANDOFF) * forward
+    for part in (first, way - first):
+        if np.linalg.norm(part) > ARRIVED:
+            step = (float(part[0]), float(part[1]), float(part[2]))
+            sense = yield from travel(hand, sense, step, 2.0, speed)
+    return sense
+
+
+@action(HAND, Parameter(name="height", kind="length"), SPEED, ACCELERATION)
+def lift(scene: Scene, sense: Sense, *, hand: Thing, height: float, speed: float, acceleration: float) -> Behaviour:
+    """Move the hand straight up (down if negative)."""
+    del scene
+    return (yield from travel(hand, sense, (0.0, 0.0, height), acceleration, speed))
+
+
+@action(
+    HAND,
+    Parameter(name="displacement", kind="displacement"),
+    ACCELERATION,
+    Parameter(name="speed", kind="speed", default=1.0),
+)
+def carry(
+    scene: Scene, sense: Sense, *, hand: Thing, displacement: Triple, acceleration: float, speed: float
+) -> Behaviour:
+    """Move the hand along a straight line, from rest to rest, at up to the given acceleration."""
+    del scene
+    return (yield from travel(hand, sense, displacement, acceleration, speed))
+
+
+@action(HAND, Parameter(name="duration", kind="duration"))
+def hold(scene: Scene, sense: Sense, *, hand: Thing, duration: float) -> Behaviour:
+    """Keep the hand where it is and its grip as it is."""
+    del scene, hand
+    return (yield from stay(duration, sense))
+
+
+@action(Parameter(name="duration", kind="duration"))
+def wait(scene: Scene, sense: Sense, *, duration: float) -> Behaviour:
+    """Let time pass."""
+    del scene
+    return (yield from stay(duration, sense))

@@ -1,0 +1,47 @@
+"""A program: a plan read from a term, checked against the scene, ready to be started."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from prolepsis.programs.commands import Behaviour, Command, Sense
+from prolepsis.terms import Value
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Program:
+    """A checked plan."""
+
+    term: Value
+    """The plan, all variables bound."""
+    begin: Callable[[Sense], Behaviour]
+    """Makes the generator of commands."""
+
+    def start(self, sense: Sense) -> Running:
+        """Return the running program, given what is sensed at the start."""
+        return Running(self.begin(sense))
+
+
+class Running:
+    """A started program: one step a tick."""
+
+    def __init__(self, behaviour: Behaviour) -> None:
+        """Wrap a generator of commands."""
+        self._behaviour = behaviour
+        self._fresh = True
+        self.ended = False
+        """True when there is nothing left to do."""
+
+    def step(self, sense: Sense) -> tuple[Command, ...]:
+        """Return the commands of this tick."""
+        if self.ended:
+            return ()
+        try:
+            if self._fresh:
+                self._fresh = False
+                return next(self._behaviour)
+            return self._behaviour.send(sense)
+        except StopIteration:
+            self.ended = True
+            return ()

@@ -1,0 +1,118 @@
+"""From a plan, which is a term, to a program: combinators and actions, checked against the scene."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import prolepsis.programs.actions as _actions
+from prolepsis.errors import PlanError, UnknownNameError
+from prolepsis.programs.action import ACTIONS, bind_arguments
+from prolepsis.programs.commands import Begin, Behaviour, Command, End, Sense
+from prolepsis.programs.program import Program
+from prolepsis.scene.scene import Scene
+from prolepsis.terms import Term, Value, Variable
+
+COMBINATORS = {
+    "sequence": "one action after the other: sequence([A, B, ...])",
+    "together": "all at once; ends when the last one ends: together([A, B, ...])",
+}
+"""What joins actions."""
+
+Maker = Callable[[Sense], Behaviour]
+
+_ = _actions
+
+
+def read_program(plan: Value, scene: Scene) -> Program:
+    """Return the program that a plan describes.
+
+    Args:
+        plan: Such as ``sequence([grasp(hand1, egg1, 20), lift(hand1, 0.1)])``.
+        scene: The things that the plan may name.
+
+    Raises:
+        PlanError: If an action has wrong arguments or cannot work in this scene.
+        UnknownNameError: If an action, object or force level does not exist.
+    """
+    return Program(term=plan, begin=_read(plan, scene))
+
+
+def _read(plan: Value, scene: Scene) -> Maker:
+    if isinstance(plan, tuple):
+        plan = Term("sequence", (plan,))
+    if isinstance(plan, Variable):
+        raise PlanError(f"plan: {plan.name} stands where an action is needed")
+    if not isinstance(plan, Term):
+        raise PlanError(f"plan: {plan} is no action; an action looks like lift(hand1, 0.1)")
+    if plan.functor in COMBINATORS:
+        return _read_combinator(plan, scene)
+    spec = ACTIONS.get(plan.functor)
+    if spec is None:
+        raise UnknownNameError.of("action", plan.functor, [*ACTIONS, *COMBINATORS], "plan")
+    arguments = bind_arguments(spec, plan, scene)
+    if spec.check is not None:
+        spec.check(scene, **arguments)
+
+    def begin(sense: Sense) -> Behaviour:
+        sense = yield from _with(Begin(term=plan), spec.behave(scene, sense, **arguments), sense)
+        return sense
+
+    return begin
+
+
+def _with(begin: Begin, behaviour: Behaviour, sense: Sense) -> Behaviour:
+    """Run an action between its beginning and its end."""
+    greatest: dict[str, float] = {}
+    commands: tuple[Command, ...] = (begin,)
+    first = True
+    while True:
+        try:
+            made = next(behaviour) if first else behaviour.send(sense)
+        except StopIteration as ended:
+            sense = ended.value
+            break
+        first = False
+        sense = yield (*commands, *made)
+        commands = ()
+        for name, hand in sense.hands.items():
+            if name in begin.term.args:
+                greatest["peak_pad_force"] = max(greatest.get("peak_pad_force", 0.0), hand.pad_force)
+    # Its end is told with the commands of whatever comes next, at the same tick.
+    sense = yield (*commands, End(term=begin.term, evidence=dict(greatest)))
+    return sense
+
+
+def _read_combinator(plan: Term, scene: Scene) -> Maker:
+    if len(plan.args) != 1 or not isinstance(plan.args[0], tuple) or not plan.args[0]:
+        raise PlanError(f"plan: {plan.functor} needs a list of actions: {COMBINATORS[plan.functor]}")
+    makers = [_read(part, scene) for part in plan.args[0]]
+    return _in_sequence(makers) if plan.functor == "sequence" else _all_together(makers)
+
+
+def _in_sequence(makers: list[Maker]) -> Maker:
+    def begin(sense: Sense) -> Behaviour:
+        for maker in makers:
+            sense = yield from maker(sense)
+        return sense
+
+    return begin
+
+
+def _all_together(makers: list[Maker]) -> Maker:
+    def begin(sense: Sense) -> Behaviour:
+        going = [maker(sense) for maker in makers]
+        fresh = set(range(len(going)))
+        while going:
+            commands: list[Command] = []
+            for k, behaviour in list(enumerate(going)):
+                try:
+                    commands += next(behaviour) if k in fresh else behaviour.send(sense)
+                except StopIteration:
+                    going[k] = None  # type: ignore[call-overload]
+            fresh = set()
+            going = [behaviour for behaviour in going if behaviour is not None]
+            if going:
+                sense = yield tuple(commands)
+        return sense
+
+    return begin

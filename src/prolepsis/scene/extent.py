@@ -1,0 +1,41 @@
+"""How far a thing reaches along a direction: for placing things on each other and for grasping."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from prolepsis.things import FloatArray, Geom, Quaternion, Thing
+
+
+def support(thing: Thing, direction: FloatArray) -> float:
+    """Return how far a thing reaches beyond its origin along a unit direction of the world [m]."""
+    return max(_reach(geom, thing.orientation, direction) for geom in thing.shape.geoms)
+
+
+def extent_along(thing: Thing, direction: FloatArray) -> float:
+    """Return a thing's whole extent along a unit direction of the world [m]."""
+    return support(thing, direction) + support(thing, -direction)
+
+
+def _reach(geom: Geom, orientation: Quaternion, direction: FloatArray) -> float:
+    turn = np.zeros(9)
+    mujoco.mju_quat2Mat(turn, np.asarray(orientation, dtype=np.float64))
+    local = turn.reshape(3, 3).T @ direction
+    offset = float(np.asarray(geom.position) @ local)
+    mujoco.mju_quat2Mat(turn, np.asarray(geom.orientation, dtype=np.float64))
+    own = turn.reshape(3, 3).T @ local
+    size = np.asarray(geom.size)
+    if geom.type == "sphere":
+        return offset + float(size[0])
+    if geom.type == "ellipsoid":
+        return offset + float(np.linalg.norm(size * own))
+    if geom.type == "box":
+        return offset + float(np.abs(own) @ size)
+    if geom.type == "cylinder":
+        return offset + float(size[0] * np.hypot(own[0], own[1]) + size[1] * abs(own[2]))
+    if geom.type == "capsule":
+        return offset + float(size[0] + size[1] * abs(own[2]))
+    if geom.type == "mesh":
+        return offset + float((np.asarray(geom.vertices) @ own).max())
+    return offset  # a plane reaches as far as its surface

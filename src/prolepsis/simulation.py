@@ -1,0 +1,206 @@
+"""The one loop: program -> targets; physics step; phenomena; monitors -> log."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from prolepsis.errors import InvalidSimulationError
+from prolepsis.log import Action, Detachments, Log
+from prolepsis.monitors.recorder import Recorder
+from prolepsis.phenomena.breaking import Breaking, Detachment, strength_of
+from prolepsis.programs.commands import Begin, Command, End, Sense
+from prolepsis.programs.program import Program
+from prolepsis.robots.hand import HAND
+from prolepsis.robots.hand_control import HandControl
+from prolepsis.scene.world import MAX_STEP, World
+from prolepsis.state import State
+from prolepsis.terms import Term
+from prolepsis.things import Triple
+
+TICK = 1.0e-3
+"""The clock of the log [s]."""
+SETTLING = 0.5
+"""A run without a given duration goes on for this long after its program has ended [s]."""
+LONGEST = 60.0
+"""A program that has not ended by itself is cut at this time [s]."""
+MAX_SPEED = 200.0
+"""No thing of a household moves faster [m/s]; what does has diverged."""
+
+
+def simulate(
+    world: World,
+    program: Program,
+    *,
+    duration: float | None = None,
+    seed: int = 1,
+    draw: bool = False,
+    progress: Callable[[float], None] | None = None,
+) -> Log:
+    """Run a program in a world and return the log.
+
+    Args:
+        world: The compiled scene; it is not changed.
+        program: The control program.
+        duration: Simulated time [s]; the program's length plus settling when None.
+        seed: Seed of everything that is drawn.
+        draw: Draw uncertain strengths from their distributions instead of taking the means.
+        progress: Called now and then with the simulated time [s].
+
+    Raises:
+        InvalidSimulationError: If the physics diverges; the message says when and where.
+    """
+    rng = np.random.default_rng(seed)
+    state = State.of(world)
+    things = world.scene.things
+    shells = {thing.whole: thing for thing in things if "breakingForce" in thing.quantities}
+    phenomena = [
+        Breaking(state, thing, strength_of(shells[thing.name].quantities, draw=draw, rng=rng))
+        for thing in things
+        if "Breakable" in thing.roles and thing.name in shells
+    ]
+    hands = {
+        thing.name: HandControl(state, thing.name, HAND, thing.quantities["opening"])
+        for thing in things
+        if "Gripper" in thing.roles
+    }
+    recorder = Recorder()
+    channels: dict[str, list[float]] = {f"{thing.thing.name}.load": [] for thing in phenomena}
+    for name in hands:
+        channels |= {f"{name}.{column}": [] for column in ("opening", "gripper", "pad_force", "command")}
+    detachments: list[tuple[int, Detachment]] = []
+    running: dict[Term, int] = {}
+    actions: list[Action] = []
+    behaviour = program.start(_sense(state, hands, 0.0))
+    ended_at: int | None = None
+    tick = 0
+    while True:
+        if duration is not None:
+            if tick >= round(duration / TICK):
+                break
+        elif (ended_at is not None and tick >= ended_at + round(SETTLING / TICK)) or tick >= round(LONGEST / TICK):
+            break
+        if progress is not None and tick % 100 == 0:
+            progress(tick * TICK)
+
+        # Program -> targets.
+        for command in behaviour.step(_sense(state, hands, tick * TICK)):
+            _note(command, tick, running, actions)
+            for hand in hands.values():
+                if getattr(command, "hand", None) == hand.name:
+                    hand.accept(command)
+        if behaviour.ended and ended_at is None:
+            ended_at = tick
+        for hand in hands.values():
+            hand.act(state, TICK)
+
+        recorder.note_version(state)
+        recorder.tick(state)
+        for name, hand in hands.items():
+            row = (hand.opening, float(hand.motion), hand.pad_force, hand.command)
+            for column, value in zip(("opening", "gripper", "pad_force", "command"), row, strict=True):
+                channels[f"{name}.{column}"].append(value)
+
+        step = min((phenomenon.substep(state) for phenomenon in phenomena), default=MAX_STEP)
+        count = math.ceil(TICK / step - 1e-9)
+        state.model.opt.timestep = TICK / count
+        loads = dict.fromkeys(channels, 0.0)
+        contacts = None
+        for _ in range(count):
+            # Physics step.
+            mujoco.mj_step(state.model, state.data)
+            _check(state, tick)
+            recorder.substep(state, tick, TICK / count)
+            # Phenomena, in their one order.
+            contacts = state.contact_forces()
+            for phenomenon in phenomena:
+                version = state.version
+                for detached in phenomenon.act(state, contacts):
+                    detachments.append((tick, detached))
+                key = f"{phenomenon.thing.name}.load"
+                loads[key] = max(loads[key], phenomenon.load)
+                if state.version != version:
+                    state.model.opt.timestep = TICK / count
+                    recorder.note_version(state)
+                    for hand in hands.values():
+                        hand.bind(state)
+                    break
+        for phenomenon in phenomena:
+            channels[f"{phenomenon.thing.name}.load"].append(loads[f"{phenomenon.thing.name}.load"])
+        if contacts is not None:
+            for hand in hands.values():
+                hand.measure(contacts)
+        tick += 1
+
+    for term, start in running.items():
+        actions.append(Action(term=term, start=start, end=tick, outcome="cut"))
+    poses, carriers = recorder.pose_columns()
+    return Log(
+        dt=TICK,
+        things=things,
+        time=np.arange(tick) * TICK,
+        poses=poses,
+        carrier=carriers,
+        contacts=recorder.contact_columns(TICK),
+        detachments=_detachment_columns(detachments),
+        channels={name: np.asarray(values) for name, values in channels.items()},
+        actions=tuple(sorted((a for a in actions if a.end > a.start), key=lambda a: (a.start, -a.end, str(a.term)))),
+        gravity=world.scene.gravity,
+    )
+
+
+def _sense(state: State, hands: dict[str, HandControl], time: float) -> Sense:
+    def place(name: str) -> Triple:
+        i = next(k for k, thing in enumerate(state.world.scene.things) if thing.name == name)
+        carrier = int(state.carrier[i])
+        if carrier < 0:
+            return state.world.scene.things[i].position
+        x, y, z = state.data.body(state.world.scene.things[carrier].name).xpos
+        return (float(x), float(y), float(z))
+
+    return Sense(time=time, hands={name: hand.sense() for name, hand in hands.items()}, place=place)
+
+
+def _note(command: Command, tick: int, running: dict[Term, int], actions: list[Action]) -> None:
+    if isinstance(command, Begin):
+        running[command.term] = tick
+    elif isinstance(command, End):
+        start = running.pop(command.term, tick)
+        actions.append(
+            Action(
+                term=command.term,
+                start=start,
+                end=max(tick, start + 1),
+                outcome=command.outcome,
+                evidence=dict(command.evidence),
+            )
+        )
+
+
+def _check(state: State, tick: int) -> None:
+    """End the run when the physics has diverged."""
+    data: Any = state.data
+    if int(data.warning.number.sum()) or not math.isfinite(data.qacc.sum()) or abs(data.qvel).max() > MAX_SPEED * 50:
+        worst = int(np.nan_to_num(np.abs(data.qvel), nan=np.inf).argmax())
+        body = state.model.body(state.model.dof_bodyid[worst]).name
+        kinds = [str(mujoco.mjtWarning(k).name) for k in np.flatnonzero(data.warning.number)]
+        raise InvalidSimulationError(
+            f"the simulation became unstable at {tick * TICK:.3f} s at {body}"
+            + (f" ({', '.join(kinds)})" if kinds else "")
+        )
+
+
+def _detachment_columns(rows: list[tuple[int, Detachment]]) -> Detachments:
+    if not rows:
+        return Detachments()
+    return Detachments(
+        tick=np.array([tick for tick, _ in rows]),
+        thing=np.array([row.thing for _, row in rows]),
+        a=np.array([row.a for _, row in rows]),
+        b=np.array([row.b for _, row in rows]),
+        force=np.array([row.force for _, row in rows]),
+    )

@@ -1,0 +1,182 @@
+"""The only mutable thing: model and data of a running simulation, and which body carries which thing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from prolepsis.scene.world import World, add_geom
+from prolepsis.things import FloatArray, IntArray
+
+
+@dataclass(kw_only=True, slots=True)
+class ContactForces:
+    """Active contacts of the last substep; c contacts."""
+
+    geoms: IntArray
+    """The two geoms, shape (c, 2)."""
+    bodies: IntArray
+    """Their bodies, shape (c, 2)."""
+    normal_force: FloatArray
+    """[N], shape (c,)."""
+    force: FloatArray
+    """Force on the second geom's body, world frame [N], shape (c, 3)."""
+    points: FloatArray
+    """World frame [m], shape (c, 3)."""
+
+
+@dataclass(kw_only=True)
+class State:
+    """A running simulation."""
+
+    world: World
+    spec: Any
+    model: Any
+    data: Any
+    carrier: IntArray
+    """Index of the thing that carries each thing, -1 for none, shape (n,)."""
+    offsets: FloatArray
+    """Pose of each thing in its carrier's frame, shape (n, 7)."""
+    body_thing: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    """Index of the thing that each MuJoCo body is, -1 for none, shape (nbody,)."""
+    version: int = 0
+    """Counts the rebuilt models."""
+
+    @classmethod
+    def of(cls, world: World) -> State:
+        """Return the state at the start of a run."""
+        things = world.scene.things
+        index = {thing.name: i for i, thing in enumerate(things)}
+        spec = world.spec.copy()
+        model = spec.compile()
+        carrier = np.full(len(things), -1)
+        for i, thing in enumerate(things):
+            carrier[i] = _carrier(world, index, i)
+        state = cls(
+            world=world,
+            spec=spec,
+            model=model,
+            data=mujoco.MjData(model),
+            carrier=carrier,
+            offsets=np.tile([0.0, 0, 0, 1, 0, 0, 0], (len(things), 1)),
+        )
+        state.refresh()
+        for i, thing in enumerate(things):
+            if carrier[i] >= 0 and carrier[i] != i:
+                holder = things[carrier[i]]
+                state.offsets[i] = relative_pose(
+                    np.array([*holder.position, *holder.orientation]), np.array([*thing.position, *thing.orientation])
+                )
+        mujoco.mj_forward(model, state.data)
+        return state
+
+    def refresh(self) -> None:
+        """Bring the map from bodies to things up to date after the model has changed."""
+        index = {thing.name: i for i, thing in enumerate(self.world.scene.things)}
+        self.body_thing = np.array([index.get(self.model.body(b).name, -1) for b in range(self.model.nbody)])
+
+    def contact_forces(self) -> ContactForces:
+        """Return the active contacts of the last substep."""
+        contact = self.data.contact
+        address = contact.efc_address
+        active = address >= 0
+        rows = address[active]
+        geoms = contact.geom[active]
+        frames = contact.frame[active].reshape(-1, 3, 3)
+        local = self.data.efc_force[rows[:, None] + np.arange(3)]
+        return ContactForces(
+            geoms=geoms,
+            bodies=self.model.geom_bodyid[geoms],
+            normal_force=local[:, 0],
+            force=np.einsum("cij,ci->cj", frames, local),
+            points=contact.pos[active],
+        )
+
+    def split(self, body_name: str, fragments: Sequence[Sequence[int]], blobs: Sequence[int]) -> None:
+        """Replace one rigid body by several that move on as its parts did.
+
+        Args:
+            body_name: The body that falls apart.
+            fragments: The things that each new body consists of; the first gives it its name and frame.
+            blobs: Further things that come free, each a body of its own.
+        """
+        things = self.world.scene.things
+        old = self.data.body(body_name)
+        origin, turn = old.xpos.copy(), old.xquat.copy()
+        velocity = np.zeros(6)
+        identifier = self.model.body(body_name).id
+        mujoco.mj_objectVelocity(self.model, self.data, mujoco.mjtObj.mjOBJ_XBODY, identifier, velocity, 0)
+        old_thing = int(self.body_thing[identifier])
+        groups = [*fragments, *([blob] for blob in blobs)]
+        poses = {i: compose_pose(np.array([*origin, *turn]), self.offsets[i]) for group in groups for i in group}
+        for pair in list(self.spec.pairs):
+            if body_name in (pair.geomname1.rsplit("/", 1)[0], pair.geomname2.rsplit("/", 1)[0]):
+                self.spec.delete(pair)
+        self.spec.delete(self.spec.body(body_name))
+        for group in groups:
+            lead = things[group[0]]
+            body = self.spec.worldbody.add_body(
+                name=lead.name, pos=list(poses[group[0]][:3]), quat=list(poses[group[0]][3:])
+            )
+            body.add_freejoint(name=lead.name)
+            for i in group:
+                self.offsets[i] = relative_pose(poses[group[0]], poses[i])
+                self.carrier[i] = group[0]
+                offset = self.offsets[i][:3]
+                for k in range(len(things[i].shape.geoms)):
+                    add_geom(
+                        self.spec,
+                        body,
+                        things[i],
+                        k,
+                        self.world.ranks,
+                        mass=things[i].mass / len(things[i].shape.geoms),
+                        offset=(float(offset[0]), float(offset[1]), float(offset[2])),
+                    )
+        if old_thing not in {i for group in groups for i in group}:
+            whole = np.flatnonzero(self.carrier == old_thing)
+            self.carrier[whole] = -1
+        self.model, self.data = self.spec.recompile(self.model, self.data)
+        self.version += 1
+        self.refresh()
+        for group in groups:
+            joint = self.data.joint(things[group[0]].name)
+            pose = poses[group[0]]
+            joint.qpos[:] = pose
+            joint.qvel[:3] = velocity[3:] + np.cross(velocity[:3], pose[:3] - origin)
+            local = np.zeros(3)
+            inverse = np.zeros(4)
+            mujoco.mju_negQuat(inverse, pose[3:])
+            mujoco.mju_rotVecQuat(local, velocity[:3], inverse)
+            joint.qvel[3:] = local
+        mujoco.mj_forward(self.model, self.data)
+
+
+def _carrier(world: World, index: Mapping[str, int], i: int) -> int:
+    things = world.scene.things
+    k = i
+    while True:
+        if world.is_body(things[k]):
+            return k
+        whole = things[k].whole
+        if whole is None:
+            return -1
+        k = index[whole]
+
+
+def compose_pose(outer: FloatArray, inner: FloatArray) -> FloatArray:
+    """Return the world pose of ``inner``, given in the frame ``outer``; both are (7,)."""
+    result = np.zeros(7)
+    mujoco.mju_mulPose(result[:3], result[3:], outer[:3], outer[3:], inner[:3], inner[3:])
+    return result
+
+
+def relative_pose(outer: FloatArray, inner: FloatArray) -> FloatArray:
+    """Return the pose of ``inner`` in the frame of ``outer``; both are world poses, (7,)."""
+    back = np.zeros(7)
+    mujoco.mju_negPose(back[:3], back[3:], outer[:3], outer[3:])
+    return compose_pose(back, inner)
