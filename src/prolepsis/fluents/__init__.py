@@ -1,0 +1,15 @@
+"""Fluents and events: how each is found in a log, one family a file. Every file of this package is one."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+
+from prolepsis.fluents.recognition import recognize
+from prolepsis.fluents.registry import EVENTS, FLUENTS, FactType, event, fluent
+
+# Importing a family registers it, so a file put here is all that a new fluent takes.
+for _module in pkgutil.iter_modules(__path__):
+    importlib.import_module(f"{__name__}.{_module.name}")
+
+__all__ = ["EVENTS", "FLUENTS", "FactType", "event", "fluent", "recognize"]

@@ -1,0 +1,168 @@
+"""Cavities by spill height: what could not run out of a shape at rest, whichever way it is turned.
+
+The free space around a shape's solids is a grid. The spill level of a free node is the least height over which
+every way to the outside must rise - found for all nodes at once, as water finds it. Below its spill level a
+node is in a depression; the free corner of an L, the space under an upturned cup, or a ring without a bottom
+has none.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from prolepsis.fluents.solids import Solid
+from prolepsis.things import BoolArray, FloatArray, IntArray
+
+NODE_COUNT = 40_000
+"""Nodes of a grid: 34 along the edge of a cube, 3 mm for a cup of 10 cm."""
+BLOCKED = 0.501
+"""A node nearer to a solid than this share of a step is blocked. Any step through a wall, however thin, then
+has a blocked end, so that walls thinner than a step do not leak."""
+LEAST_DEPTH = 1.2
+"""Depth of a depression [grid steps] below which it is an artefact of the grid's steps on a slanted surface."""
+CLEARANCE = 0.4
+"""Share of its least half-width [1] that a body needs around its inner points to pass a gap: with samples at
+half its width a body that touches a wall still counts as clear of it, and one does not slip through a grate."""
+CLEARANCE_STEPS = 5
+"""Greatest clearance that is told apart [grid steps]."""
+ORIENTATIONS = 16
+"""Gravity's direction in the shape's frame is rounded to this fraction of one: about 4 degrees."""
+_NEAR = 1.75
+"""Distance to a solid [grid steps] beyond which the nearest node is surely on the same side of every wall."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class Cavity:
+    """The free space around one rigid shape."""
+
+    solids: tuple[Solid, ...]
+    """The convex solids, in the shape's frame."""
+    origin: FloatArray
+    """Position of the first node [m], shape (3,)."""
+    step: float
+    """Distance between nodes [m]."""
+    distance: FloatArray
+    """Distance of each node to the nearest solid [m], cut off at a few steps, shape (nx, ny, nz)."""
+    _levels: dict[tuple[int, int, int, int], FloatArray] = field(
+        default_factory=dict[tuple[int, int, int, int], FloatArray]
+    )
+
+    def depth(self, points: FloatArray, up: FloatArray, half_width: float) -> FloatArray:
+        """Return how far below its spill level each point is [m], 0 where it is in no depression, shape (N,).
+
+        Args:
+            points: In the shape's frame [m], shape (N, 3).
+            up: Unit vector against gravity in the shape's frame, shape (3,), or one for each point, shape (N, 3),
+                that agree as far as directions are told apart.
+            half_width: Least half-width of the body that the points are well inside of [m].
+        """
+        width = int(min(CLEARANCE * half_width / self.step, CLEARANCE_STEPS))
+        clearance = self.step * max(width, BLOCKED)
+        levels = self._spill_levels(np.atleast_2d(up)[0], width)
+        places, inside = self._nodes(points)
+        doubtful = inside & (self.distance[tuple(places.T)] < max(clearance, _NEAR * self.step))
+        if doubtful.any():
+            moved = self._cleared(points[doubtful], clearance + self.step)
+            places[doubtful], inside[doubtful] = self._nodes(moved)
+        found = levels[tuple(places.T)]
+        rise = found - (points * up).sum(axis=1)
+        # An infinite level is a closed hollow; a blocked node says nothing.
+        free = self.distance[tuple(places.T)] >= clearance
+        in_depression = inside & free & (rise > LEAST_DEPTH * self.step)
+        return np.where(in_depression, np.minimum(rise, float(np.max(self.step * np.array(self.distance.shape)))), 0.0)
+
+    def _nodes(self, points: FloatArray) -> tuple[IntArray, BoolArray]:
+        """Return the nearest node of each point, and whether the point is within the grid."""
+        place = np.rint((points - self.origin) / self.step).astype(np.int64)
+        shape = np.array(self.distance.shape)
+        inside = ((place >= 0) & (place < shape)).all(axis=1)
+        return np.clip(place, 0, shape - 1), inside
+
+    def _cleared(self, points: FloatArray, clearance: float) -> FloatArray:
+        """Return the points moved away from the nearest walls, on their own side, until they are clear."""
+        moved, small = points.copy(), 1e-3 * self.step
+        for _ in range(3):
+            distance = _union_distance(self.solids, moved)
+            near = distance < clearance
+            if not near.any():
+                break
+            here = moved[near]
+            slope = np.stack(
+                [_union_distance(self.solids, here + small * axis) - distance[near] for axis in np.eye(3)], axis=1
+            )
+            slope /= np.maximum(np.linalg.norm(slope, axis=1, keepdims=True), 1e-300)
+            moved[near] = here + slope * (clearance - distance[near])[:, None]
+        return moved
+
+    def _spill_levels(self, up: FloatArray, width: int) -> FloatArray:
+        rounded = np.rint(up * ORIENTATIONS).astype(np.int64)
+        key = (int(rounded[0]), int(rounded[1]), int(rounded[2]), width)
+        if key not in self._levels:
+            direction = rounded / np.linalg.norm(rounded)
+            blocked = self.distance < self.step * max(width, BLOCKED)
+            self._levels[key] = spill_levels(self._heights(direction), blocked)
+        return self._levels[key]
+
+    def _heights(self, up: FloatArray) -> FloatArray:
+        axes = [up[k] * (self.origin[k] + self.step * np.arange(self.distance.shape[k])) for k in range(3)]
+        return axes[0][:, None, None] + axes[1][None, :, None] + axes[2][None, None, :]
+
+
+def cavity_of(solids: tuple[Solid, ...]) -> Cavity:
+    """Return the free space around the solids of one rigid shape."""
+    bounds = [solid.bounds() for solid in solids]
+    low = np.min([b[0] for b in bounds], axis=0)
+    high = np.max([b[1] for b in bounds], axis=0)
+    step = float(np.prod(np.maximum(high - low, 1e-4)) / NODE_COUNT) ** (1 / 3)
+    # Two free nodes on every side: all that is outside is one region.
+    margin = 2.0 * step
+    origin = low - margin
+    shape = np.ceil((high + margin - origin) / step).astype(np.int64) + 1
+    cut = step * (CLEARANCE_STEPS + 1)
+    distance = np.full(tuple(shape), cut)
+    for solid, (least, greatest) in zip(solids, bounds, strict=True):
+        first = np.maximum(np.floor((least - cut - origin) / step).astype(np.int64), 0)
+        last = np.minimum(np.ceil((greatest + cut - origin) / step).astype(np.int64) + 1, shape)
+        axes = [origin[k] + step * np.arange(first[k], last[k]) for k in range(3)]
+        grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
+        block = tuple(slice(int(a), int(b)) for a, b in zip(first, last, strict=True))
+        here = solid.distance(grid.reshape(-1, 3)).reshape(grid.shape[:3])
+        np.minimum(distance[block], here, out=distance[block])
+    return Cavity(solids=solids, origin=origin, step=step, distance=distance)
+
+
+def spill_levels(heights: FloatArray, blocked: BoolArray) -> FloatArray:
+    """Return, for each node, the least possible greatest height on a way to the edge of the grid.
+
+    Blocked nodes, and free ones without a way out, are at infinity. Each sweep carries levels along one axis;
+    sweeps go on until nothing changes.
+
+    Args:
+        heights: Height of each node [m], shape (nx, ny, nz).
+        blocked: Nodes that no way may use.
+    """
+    floor = np.where(blocked, np.inf, heights)
+    levels = np.full_like(heights, np.inf)
+    for axis in range(3):
+        ends, bottom = np.moveaxis(levels, axis, 0), np.moveaxis(floor, axis, 0)
+        ends[0], ends[-1] = bottom[0], bottom[-1]
+    while True:
+        before = levels.copy()
+        for axis in (2, 0, 1):
+            lines, bottom = np.moveaxis(levels, axis, 0), np.moveaxis(floor, axis, 0)
+            count = len(lines)
+            for order, back in ((range(1, count), 1), (range(count - 2, -1, -1), -1)):
+                for i in order:
+                    np.minimum(lines[i], lines[i - back], out=lines[i])
+                    np.maximum(lines[i], bottom[i], out=lines[i])
+        if np.array_equal(before, levels):
+            return levels
+
+
+def _union_distance(solids: tuple[Solid, ...], points: FloatArray) -> FloatArray:
+    found = solids[0].distance(points)
+    for solid in solids[1:]:
+        np.minimum(found, solid.distance(points), out=found)
+    return found

@@ -1,0 +1,149 @@
+"""``contains(c, x)``: x is inside a depression of c, below where it would spill, and c or its contents bear it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from prolepsis.fluents.contact import is_stuff
+from prolepsis.fluents.inside import Depths, depths_within
+from prolepsis.fluents.intervals import close_gaps, debounce, drop_short, hysteresis, mask_of, runs, ticks_of, union
+from prolepsis.fluents.observation import Observation, is_held_from_outside
+from prolepsis.fluents.registry import fluent
+from prolepsis.fluents.shapes_in_time import RigidShape, rigid_shapes
+from prolepsis.fluents.support import support_runs
+from prolepsis.things import BoolArray, FloatArray, IntArray
+from prolepsis.timeline import Fact
+
+NOTICEABLE_FRACTION = 0.02
+"""Fraction of a stuff's mass [1] that is noticed: inside a container, on a surface, or spilled."""
+CONTAINED_GAP = 0.1
+"""Time outside that is not noticed [s]."""
+CONTAINED_LEAST = 0.05
+"""Shortest containment [s]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class Content:
+    """One unit inside one unit."""
+
+    container: int
+    """Unit."""
+    content: int
+    """Unit."""
+    stretches: IntArray
+    """When it is contained."""
+    depths: tuple[Depths, ...]
+    """How deep, as long as it was looked at."""
+
+
+@fluent("contains", "o1", "o2")
+def contains(observation: Observation) -> Iterator[Fact]:
+    """o2 is inside a cavity of o1 which it could not leave at rest, and o1 or what it contains bears it."""
+    names = observation.unit_names
+    for item in observation.of(contents):
+        if is_stuff(observation, item.content):
+            continue
+        for start, end in item.stretches:
+            found = [depths.at(int(start), int(end)) for depths in item.depths]
+            fraction, depth = max((pair for pair in found if pair is not None), default=(1.0, 0.0))
+            evidence = {"fraction": fraction, "depth": depth}
+            args = names[item.container], names[item.content]
+            yield observation.fact("fluent", "contains", args, (start, end), evidence)
+    yield from _stuffs(observation)
+
+
+def _stuffs(observation: Observation) -> Iterator[Fact]:
+    things = observation.log.things
+    blobs = observation.of(blob_shares)
+    for stuff in (i for i in range(len(things)) if observation.has_role(i, "Stuff")):
+        within = observation.log.carrier[:, stuff]
+        for body in sorted(set(within[within >= 0].tolist()) - {stuff}):
+            name = observation.unit_names[observation.unit[body]]
+            for stretch in runs(within == body):
+                yield observation.fact("fluent", "contains", (name, things[stuff].name), stretch, {"fraction": 1.0})
+        shares: dict[int, FloatArray] = {}
+        for item in observation.of(contents):
+            if item.content in blobs.get(stuff, {}):
+                share = shares.setdefault(item.container, np.zeros(observation.tick_count))
+                share += blobs[stuff][item.content] * mask_of(item.stretches, observation.tick_count)
+        for container, share in sorted(shares.items()):
+            enough = debounce(share >= NOTICEABLE_FRACTION, observation.dt, gap=CONTAINED_GAP, least=CONTAINED_LEAST)
+            for start, end in enough:
+                evidence = {"fraction": float(share[start:end].max())}
+                args = observation.unit_names[container], things[stuff].name
+                yield observation.fact("fluent", "contains", args, (start, end), evidence)
+
+
+def blob_shares(observation: Observation) -> dict[int, dict[int, float]]:
+    """Return, for each stuff that consists of blobs, the share of its mass in each blob."""
+    things = observation.log.things
+    index = {thing.name: i for i, thing in enumerate(things)}
+    masses: dict[int, dict[int, float]] = {}
+    for blob, thing in enumerate(things):
+        if thing.whole is not None and thing.whole in index and observation.has_role(blob, "Blob"):
+            masses.setdefault(index[thing.whole], {})[blob] = thing.mass if thing.mass > 0 else 1.0
+    return {s: {b: m / sum(each.values()) for b, m in each.items()} for s, each in masses.items()}
+
+
+def contents(observation: Observation) -> tuple[Content, ...]:
+    """Return what is contained in what and when, blobs of stuffs one by one."""
+    shapes = observation.of(rigid_shapes)
+    candidates = [shape for shape in shapes if _may_be_content(observation, shape)]
+    by_container: dict[int, list[RigidShape]] = {}
+    for shape in shapes:
+        if len(shape.solids) > 1:
+            unit = int(observation.unit[shape.body])
+            by_container.setdefault(unit, []).append(shape)
+    found: list[Content] = []
+    for container, hollows in by_container.items():
+        inside: dict[int, list[Depths]] = {}
+        for hollow in hollows:
+            for shape in candidates:
+                unit = int(observation.unit[shape.body])
+                depths = depths_within(observation, hollow, shape) if unit != container else None
+                if depths is not None:
+                    inside.setdefault(unit, []).append(depths)
+        found += _borne(observation, container, inside)
+    return tuple(found)
+
+
+def _may_be_content(observation: Observation, shape: RigidShape) -> bool:
+    unit = int(observation.unit[shape.body])
+    thing = observation.log.things[shape.body]
+    mounted = observation.has_role(unit, "Mounted") or is_held_from_outside(observation, unit)
+    return shape.body == unit and not thing.fixed and not mounted
+
+
+def _borne(observation: Observation, container: int, inside: dict[int, list[Depths]]) -> list[Content]:
+    """Return what of all that is inside is also borne by the container or its contents, or at rest in it."""
+    count = observation.tick_count
+    masks = {unit: mask_of(union(d.stretches for d in each), count) for unit, each in inside.items()}
+    anchored: dict[int, BoolArray] = {}
+    for unit, each in inside.items():
+        mask = mask_of(union(d.at_rest for d in each), count)
+        borne = observation.of(support_runs).get((container, unit))
+        anchored[unit] = mask if borne is None else mask | mask_of(borne, count)
+    borne_by = [(pair, s) for pair, s in observation.of(support_runs).items() if set(pair) <= set(inside)]
+    changed = True
+    while changed:
+        changed = False
+        for (below, above), stretches in borne_by:
+            more = anchored[above] | (anchored[below] & masks[below] & mask_of(stretches, count))
+            if (more & ~anchored[above]).any():
+                anchored[above], changed = more, True
+    gap, least = ticks_of(CONTAINED_GAP, observation.dt), ticks_of(CONTAINED_LEAST, observation.dt)
+    found: list[Content] = []
+    for unit, each in inside.items():
+        # Once borne inside, a thing that hops in there stays contained until it leaves.
+        held = [_from_first(run, anchored[unit]) for run in hysteresis(masks[unit], anchored[unit]).tolist()]
+        stretches = drop_short(close_gaps(np.array(held, dtype=np.int64).reshape(-1, 2), gap), least)
+        if len(stretches):
+            found.append(Content(container=container, content=unit, stretches=stretches, depths=tuple(each)))
+    return found
+
+
+def _from_first(run: list[int], anchored: BoolArray) -> tuple[int, int]:
+    return run[0] + int(np.argmax(anchored[run[0] : run[1]])), run[1]

@@ -1,0 +1,169 @@
+"""When one rigid shape lies in a depression of another: geometry, looked at every few ticks and sharpened at the ends."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from prolepsis.fluents.cavity import ORIENTATIONS, Cavity, cavity_of
+from prolepsis.fluents.intervals import mask_of, runs, ticks_of
+from prolepsis.fluents.observation import Observation
+from prolepsis.fluents.rigid import rotate, rotate_back
+from prolepsis.fluents.shapes_in_time import RigidShape
+from prolepsis.fluents.solids import samples
+from prolepsis.things import BoolArray, FloatArray, IntArray
+
+INSIDE_SHARE = 0.5
+"""Share of x's volume [1] below the spill level from which x is inside: an apple on a plate is not, a ball that
+just looks out of a cup is."""
+LOOK_STEP = 0.01
+"""Time between two looks [s]; what goes in or out is followed tick by tick."""
+REST_SPEED = 0.01
+"""Speed relative to the container below which x rests in it [m/s]."""
+REST_WINDOW = 0.2
+"""Time over which it must do so [s], longer than a hand that passes through would pause."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class Depths:
+    """How deep one body lay in the depressions of another."""
+
+    tick: IntArray
+    """Ticks that were looked at, ascending, shape (K,)."""
+    share: FloatArray
+    """Share of the body's volume below the spill level [1], shape (K,)."""
+    depth: FloatArray
+    """How far its middle is below the spill level [m], shape (K,)."""
+    stretches: IntArray
+    """When it was inside."""
+    at_rest: IntArray
+    """When it was at rest relative to the container."""
+
+    def at(self, start: int, end: int) -> tuple[float, float] | None:
+        """Return the greatest share and depth seen over ticks ``start`` to ``end``, if any was."""
+        seen = (self.tick >= start) & (self.tick < end)
+        return (float(self.share[seen].max()), float(self.depth[seen].max())) if seen.any() else None
+
+
+def depths_within(observation: Observation, hollow: RigidShape, shape: RigidShape) -> Depths | None:
+    """Return how deep ``shape`` lay in ``hollow``, or None if it never was inside."""
+    both = hollow.during & shape.during
+    step = ticks_of(LOOK_STEP, observation.dt)
+    looked = np.arange(0, observation.tick_count, step)
+    looked = looked[both[looked]]
+    if not len(looked):
+        return None
+    points, weights = samples(shape.solids)
+    middle = weights @ points
+    near = _between_bounds(observation, hollow, shape, middle, looked)
+    if not near.any():
+        return None
+    viewer = _Viewer(observation=observation, hollow=hollow, shape=shape, points=points, weights=weights)
+    share, depth = np.zeros(len(looked)), np.zeros(len(looked))
+    share[near], depth[near] = viewer.look(looked[near])
+    inside = share >= INSIDE_SHARE
+    if not inside.any():
+        return None
+    seen = np.zeros(observation.tick_count, dtype=np.bool_)
+    for first, last in runs(inside):
+        begin = viewer.first_inside(looked[first - 1] + 1 if first else looked[first], int(looked[first]))
+        limit = int(looked[last]) if last < len(looked) else observation.tick_count
+        seen[begin : viewer.first_outside(int(looked[last - 1]) + 1, limit)] = True
+    return Depths(
+        tick=looked[near],
+        share=share[near],
+        depth=depth[near],
+        stretches=runs(seen & both),
+        at_rest=_at_rest(observation, hollow.body, shape, middle, both),
+    )
+
+
+def cavities(observation: Observation) -> dict[int, Cavity]:
+    """Return the free space around shapes, by identity, filled when first needed."""
+    return {}
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class _Viewer:
+    observation: Observation
+    hollow: RigidShape
+    shape: RigidShape
+    points: FloatArray
+    weights: FloatArray
+
+    def look(self, ticks: IntArray) -> tuple[FloatArray, FloatArray]:
+        """Return the share inside [1] and the depth of the middle [m] at ticks, each of their shape."""
+        observation = self.observation
+        known = observation.of(cavities)
+        if id(self.hollow) not in known:
+            known[id(self.hollow)] = cavity_of(self.hollow.solids)
+        cavity = known[id(self.hollow)]
+        pose, host = observation.log.poses[ticks, self.shape.body], observation.log.poses[ticks, self.hollow.body]
+        up = rotate_back(host[:, 3:], observation.up)
+        place = rotate(pose[:, None, 3:], self.points) + (pose[:, :3] - host[:, :3])[:, None]
+        local = rotate_back(host[:, None, 3:], place)
+        half = min(solid.half_width for solid in self.shape.solids)
+        share, depth = np.zeros(len(ticks)), np.zeros(len(ticks))
+        for first, place_of, direction in _distinct(up, local, cavity.step):
+            deep = cavity.depth(local[first].reshape(-1, 3), np.repeat(up[first], len(self.points), axis=0), half)
+            deep = deep.reshape(len(first), -1)
+            share[direction] = ((deep > 0) @ self.weights)[place_of]
+            depth[direction] = (deep @ self.weights)[place_of]
+        return share, depth
+
+    def first_inside(self, first: int, last: int) -> int:
+        """Return the first tick from ``first`` on at which it is inside, knowing that it is at ``last``."""
+        ticks = np.arange(first, last + 1)
+        return int(ticks[np.argmax(self.look(ticks)[0] >= INSIDE_SHARE)])
+
+    def first_outside(self, first: int, last: int) -> int:
+        """Return the first tick from ``first`` on at which it is not inside, at most ``last``."""
+        ticks = np.arange(first, last)
+        outside = self.look(ticks)[0] < INSIDE_SHARE if len(ticks) else np.zeros(0, dtype=np.bool_)
+        return int(ticks[np.argmax(outside)]) if outside.any() else last
+
+
+def _distinct(up: FloatArray, local: FloatArray, step: float) -> Iterator[tuple[IntArray, IntArray, IntArray]]:
+    """Yield, for each direction of up in the container, the ticks at which the body lies there in distinct ways.
+
+    A twentieth of a grid step makes no difference, and what rests, rests for thousands of ticks.
+
+    Yields:
+        One tick for each way of lying; for each tick of the direction, its way; the ticks of the direction.
+    """
+    corners = local[:, [0, -1]].reshape(len(local), -1)
+    key = np.rint(np.concatenate((up * ORIENTATIONS, corners / (0.05 * step)), axis=1)).astype(np.int64)
+    _, direction = np.unique(key[:, :3], axis=0, return_inverse=True)
+    for number in range(int(direction.max()) + 1):
+        ticks = np.flatnonzero(direction.ravel() == number)
+        _, first, way = np.unique(key[ticks], axis=0, return_index=True, return_inverse=True)
+        yield ticks[first], way.ravel(), ticks
+
+
+def _between_bounds(
+    observation: Observation, hollow: RigidShape, shape: RigidShape, middle: FloatArray, ticks: IntArray
+) -> BoolArray:
+    """Return whether the body's middle is within the box around the container's solids, at each of some ticks."""
+    bounds = [solid.bounds() for solid in hollow.solids]
+    low, high = np.min([b[0] for b in bounds], axis=0), np.max([b[1] for b in bounds], axis=0)
+    place = _relative(observation, hollow.body, shape, middle, ticks)
+    return ((place > low) & (place < high)).all(axis=1)
+
+
+def _relative(
+    observation: Observation, host: int, shape: RigidShape, middle: FloatArray, ticks: IntArray
+) -> FloatArray:
+    pose, frame = observation.log.poses[ticks, shape.body], observation.log.poses[ticks, host]
+    return rotate_back(frame[:, 3:], rotate(pose[:, 3:], middle) + pose[:, :3] - frame[:, :3])
+
+
+def _at_rest(observation: Observation, host: int, shape: RigidShape, middle: FloatArray, both: BoolArray) -> IntArray:
+    step = ticks_of(LOOK_STEP, observation.dt)
+    ticks = np.arange(0, observation.tick_count, step)
+    place = _relative(observation, host, shape, middle, ticks)
+    speed = np.linalg.norm(np.diff(place, axis=0), axis=1) / (step * observation.dt)
+    still = runs(np.append(speed < REST_SPEED, False))
+    still = still[(still[:, 1] - still[:, 0]) * step * observation.dt >= REST_WINDOW]
+    return runs(mask_of(still * step, observation.tick_count) & both)

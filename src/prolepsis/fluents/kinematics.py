@@ -1,0 +1,110 @@
+"""How units move: centres, speeds, and whether something bears their weight, from poses alone."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from prolepsis.fluents.intervals import ticks_of
+from prolepsis.fluents.observation import Observation
+from prolepsis.fluents.rigid import rotate, turn
+from prolepsis.fluents.solids import centroid, radius
+from prolepsis.things import BoolArray, FloatArray
+
+BALANCE_WINDOW = 0.05
+"""Time over which weight and support are weighed against each other [s]: longer than a contact flickers (10-20
+ms), shorter than one notices."""
+BALANCED_ACCELERATION = (-0.75, 2.0)
+"""Vertical acceleration in shares of gravity [1] between which the weight counts as balanced by what bears it:
+a fall has -1 and a steep slide -0.75; a ball that rolls to and fro in a bowl has up to 2, an impact more."""
+
+
+def centres(observation: Observation) -> FloatArray:
+    """Return where the middle of each thing is, world frame [m], shape (n, T, 3)."""
+    poses = observation.log.poses
+    found = np.ascontiguousarray(poses[:, :, :3].transpose(1, 0, 2))
+    for i, thing in enumerate(observation.log.things):
+        offset = centroid(thing.shape)
+        if np.abs(offset).max() > 1e-9:
+            found[i] += rotate(poses[:, i, 3:], offset)
+    return found
+
+
+def velocities(observation: Observation) -> FloatArray:
+    """Return the velocity of each thing's middle during each tick [m/s], shape (n, T, 3)."""
+    place = observation.of(centres)
+    found = np.zeros_like(place)
+    if observation.tick_count > 1:
+        np.subtract(place[:, 1:], place[:, :-1], out=found[:, :-1])
+        found /= observation.dt
+        found[:, -1] = found[:, -2]
+    return found
+
+
+def heights(observation: Observation) -> FloatArray:
+    """Return how high each thing's middle is [m], shape (n, T)."""
+    return observation.of(centres) @ observation.up
+
+
+def climb_speeds(observation: Observation) -> FloatArray:
+    """Return the upward velocity of each thing's middle during each tick [m/s], shape (n, T)."""
+    return observation.of(velocities) @ observation.up
+
+
+def radii(observation: Observation) -> FloatArray:
+    """Return the greatest distance of each thing's surface from its frame's origin [m], shape (n,)."""
+    return np.array([radius(thing.shape) for thing in observation.log.things])
+
+
+def travel(observation: Observation, ticks_before: int, ticks_after: int) -> FloatArray:
+    """Return how far each thing's surface gets from ``ticks_before`` before to ``ticks_after`` after each tick.
+
+    Turning counts as the way of the outermost point.
+
+    Returns:
+        Mean speed over that time [m/s], shape (n, T).
+    """
+    count = observation.tick_count
+    first = np.maximum(np.arange(count) - ticks_before, 0)
+    last = np.minimum(np.arange(count) + ticks_after, count - 1)
+    short = last == first
+    first[short] = np.maximum(first[short] - 1, 0)
+    place = observation.of(centres)
+    way = place[:, last] - place[:, first]
+    shift = np.sqrt(np.einsum("ntc,ntc->nt", way, way))
+    orientation = observation.of(orientations)
+    spin = turn(orientation[:, first], orientation[:, last]) * observation.of(radii)[:, None]
+    return np.maximum(shift, spin) / (np.maximum(last - first, 1) * observation.dt)
+
+
+def orientations(observation: Observation) -> FloatArray:
+    """Return the unit quaternion of each thing, shape (n, T, 4)."""
+    return np.ascontiguousarray(observation.log.poses[:, :, 3:].transpose(1, 0, 2))
+
+
+def surface_speeds(observation: Observation) -> FloatArray:
+    """Return the speed of each thing's fastest surface point during each tick [m/s], shape (n, T)."""
+    return travel(observation, 0, 1)
+
+
+def climb_accelerations(observation: Observation) -> tuple[FloatArray, FloatArray]:
+    """Return the mean upward acceleration of each thing before and from each tick on [m/s^2], two of shape (n, T)."""
+    climb = observation.of(climb_speeds)
+    count = observation.tick_count
+    window = ticks_of(BALANCE_WINDOW, observation.dt)
+    now = np.arange(count)
+    # The last velocity is a copy, so it says nothing of acceleration.
+    last = max(count - 2, 0)
+    before, here, after = np.maximum(now - window, 0), np.minimum(now, last), np.minimum(now + window, last)
+    past = (climb[:, here] - climb[:, before]) / (np.maximum(here - before, 1) * observation.dt)
+    future = (climb[:, after] - climb[:, here]) / (np.maximum(after - here, 1) * observation.dt)
+    # At the ends one side is empty, and the other speaks for both.
+    past[:, here == before] = future[:, here == before]
+    future[:, after <= here] = past[:, after <= here]
+    return past, future
+
+
+def balanced(observation: Observation) -> BoolArray:
+    """Return whether all that holds a thing balances its weight, shape (n, T): it does not accelerate like a fall."""
+    past, future = observation.of(climb_accelerations)
+    least, greatest = (share * max(observation.gravity, 1e-9) for share in BALANCED_ACCELERATION)
+    return ((past >= least) & (past <= greatest)) | ((future >= least) & (future <= greatest))

@@ -1,0 +1,32 @@
+"""From a log to a timeline: every registered grounding looks at the same observation."""
+
+from __future__ import annotations
+
+from prolepsis.domain import Domain
+from prolepsis.fluents.actions import action_facts
+from prolepsis.fluents.observation import observe
+from prolepsis.fluents.registry import GROUNDINGS
+from prolepsis.log import Log
+from prolepsis.timeline import Fact, Timeline, make_timeline
+
+
+def recognize(log: Log, *, domain: Domain | None = None) -> Timeline:
+    """Return which fluents held and which events occurred in a log.
+
+    Args:
+        log: What a run, a rollout or a recording left behind.
+        domain: What is known of the individuals, for queries; without it, what the log's things say.
+    """
+    observation = observe(log)
+    facts: list[Fact] = [fact for grounding in GROUNDINGS for fact in grounding(observation)]
+    facts += action_facts(observation)
+    return make_timeline(facts, dt=log.dt, duration=log.duration, domain=domain or domain_of(log))
+
+
+def domain_of(log: Log) -> Domain:
+    """Return what the things of a log say of themselves: kinds, roles, parts and quantities."""
+    instances = sorted({(t.name, kind) for t in log.things for kind in {t.kind, *t.roles}})
+    values = sorted((t.name, name, value) for t in log.things for name, value in t.quantities.items())
+    masses = sorted((t.name, "mass", t.mass) for t in log.things if t.mass > 0 and "mass" not in t.quantities)
+    parts = sorted((t.whole, t.name) for t in log.things if t.whole is not None)
+    return Domain(instances=tuple(instances), parts=tuple(parts), values=tuple(sorted([*values, *masses])))

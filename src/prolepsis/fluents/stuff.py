@@ -1,0 +1,149 @@
+"""Stuffs (yolk, white, liquids) outside every container: ``spilled``, ``spilling``, and what supports them.
+
+A stuff is many blobs; each is judged alone, and facts name the stuff when the noticeable fraction does so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+
+import numpy as np
+
+from prolepsis.fluents.contact import FLICKER, is_stuff
+from prolepsis.fluents.containment import NOTICEABLE_FRACTION, blob_shares, contents
+from prolepsis.fluents.fall import falling_runs
+from prolepsis.fluents.intervals import debounce, mask_of, union
+from prolepsis.fluents.kinematics import surface_speeds
+from prolepsis.fluents.motion import moving_runs
+from prolepsis.fluents.observation import Observation
+from prolepsis.fluents.registry import event, fluent
+from prolepsis.fluents.support import support_runs
+from prolepsis.fluents.touch import touches
+from prolepsis.things import BoolArray, FloatArray, IntArray
+from prolepsis.timeline import Fact
+
+FLOWING_SPEED = 0.02
+"""Speed of a blob that flows over a surface [m/s]."""
+STUFF_GAP = 0.1
+"""Gap in what a stuff does that is not noticed [s]."""
+STUFF_LEAST = 0.05
+"""Shortest time that a stuff is seen to do something [s]."""
+MOST = 0.5
+"""Share of a stuff's mass [1] that must move or fall for the stuff to do so."""
+
+BlobMasks = Mapping[int, BoolArray]
+
+
+@fluent("spilled", "o")
+def spilled(observation: Observation) -> Iterator[Fact]:
+    """A noticeable fraction of the stuff rests on or flows over a surface outside every container."""
+    lying = observation.of(outside_masks)
+    for stuff, shares in observation.of(blob_shares).items():
+        fraction = _share(observation, shares, lying)
+        mass = observation.log.things[stuff].mass or sum(observation.log.things[b].mass for b in shares)
+        for start, end in _noticed(observation, fraction):
+            greatest = float(fraction[start:end].max())
+            evidence = {"fraction": greatest, "mass": greatest * mass}
+            yield observation.fact("fluent", "spilled", (observation.log.things[stuff].name,), (start, end), evidence)
+
+
+@event("spilling", "o")
+def spilling(observation: Observation) -> Iterator[Fact]:
+    """A noticeable fraction of the stuff flows over a surface outside every container, or has just come there."""
+    lying, speed = observation.of(outside_masks), observation.of(surface_speeds)
+    flowing = {blob: mask & (speed[blob] > FLOWING_SPEED) for blob, mask in lying.items()}
+    for stuff, shares in observation.of(blob_shares).items():
+        fraction, outside = _share(observation, shares, flowing), _share(observation, shares, lying)
+        for start, end in _noticed(observation, fraction):
+            before, after = outside[max(start - 1, 0)], outside[min(end, observation.tick_count - 1)]
+            evidence = {"fraction": float(fraction[start:end].max()), "spilled_before": before, "spilled_after": after}
+            yield observation.fact("event", "spilling", (observation.log.things[stuff].name,), (start, end), evidence)
+
+
+@fluent("supports", "o1", "o2")
+def supports_stuff(observation: Observation) -> Iterator[Fact]:
+    """o1 bears at least a tenth of o2's weight through contacts that lie under o2, and o2's weight is balanced."""
+    free = observation.of(uncontained_masks)
+    known = observation.of(support_runs)
+    for stuff, shares in observation.of(blob_shares).items():
+        resting: dict[int, dict[int, BoolArray]] = {}
+        for (below, above), stretches in known.items():
+            if above in shares and not is_stuff(observation, below):
+                mask = mask_of(stretches, observation.tick_count) & free[above]
+                resting.setdefault(below, {})[above] = mask
+        for below, masks in sorted(resting.items()):
+            fraction = _share(observation, shares, masks)
+            args = observation.unit_names[below], observation.log.things[stuff].name
+            for start, end in _noticed(observation, fraction):
+                evidence = {"fraction": float(fraction[start:end].max())}
+                yield observation.fact("fluent", "supports", args, (start, end), evidence)
+
+
+@event("moving", "o")
+def moving_stuff(observation: Observation) -> Iterator[Fact]:
+    """The thing gets somewhere or turns, faster than 1 cm/s; jitter in place is no motion."""
+    yield from _mostly(observation, "moving", moving_runs)
+
+
+@event("falling", "o")
+def falling_stuff(observation: Observation) -> Iterator[Fact]:
+    """Nothing bears the thing and it goes down freely, from the loss of its support until it lands."""
+    yield from _mostly(observation, "falling", falling_runs)
+
+
+def uncontained_masks(observation: Observation) -> dict[int, BoolArray]:
+    """Return whether each blob is free and in no container, shape (T,) each."""
+    count = observation.tick_count
+    held: dict[int, list[IntArray]] = {}
+    for item in observation.of(contents):
+        held.setdefault(item.content, []).append(item.stretches)
+    blobs = [blob for shares in observation.of(blob_shares).values() for blob in shares]
+    return {b: observation.exists(b) & ~mask_of(union(held.get(b, [])), count) for b in blobs}
+
+
+def outside_masks(observation: Observation) -> dict[int, BoolArray]:
+    """Return whether each blob lies on a surface, or on others that do, outside every container, shape (T,) each."""
+    free, count = observation.of(uncontained_masks), observation.tick_count
+    found = {blob: np.zeros(count, dtype=np.bool_) for blob in free}
+    among: list[tuple[int, int, BoolArray]] = []
+    for touch in observation.of(touches):
+        if touch.a not in free and touch.b not in free:
+            continue
+        mask = mask_of(debounce(touch.mask(count, observation.dt), observation.dt, gap=FLICKER), count)
+        for below, above, bearing in ((touch.a, touch.b, touch.bears_b), (touch.b, touch.a, touch.bears_a)):
+            if above not in free or not (bearing > 0).any():
+                continue
+            if below in free:
+                among.append((below, above, mask))
+            else:
+                found[above] |= mask & free[above]
+    changed = True
+    while changed:
+        changed = False
+        for below, above, mask in among:
+            more = found[above] | (found[below] & mask & free[above])
+            if (more & ~found[above]).any():
+                found[above], changed = more, True
+    return found
+
+
+def _share(observation: Observation, shares: Mapping[int, float], masks: BlobMasks) -> FloatArray:
+    total = np.zeros(observation.tick_count)
+    for blob, share in shares.items():
+        if blob in masks:
+            total += share * masks[blob]
+    return total
+
+
+def _noticed(observation: Observation, fraction: FloatArray) -> IntArray:
+    # The sum of all shares may fall short of a fraction by rounding.
+    return debounce(fraction >= NOTICEABLE_FRACTION - 1e-9, observation.dt, gap=STUFF_GAP, least=STUFF_LEAST)
+
+
+def _mostly(observation: Observation, type: str, find: Callable[[Observation], dict[int, IntArray]]) -> Iterator[Fact]:
+    masks = {unit: mask_of(stretches, observation.tick_count) for unit, stretches in observation.of(find).items()}
+    for stuff, shares in observation.of(blob_shares).items():
+        fraction = _share(observation, shares, masks)
+        for start, end in debounce(fraction >= MOST, observation.dt, gap=STUFF_GAP, least=STUFF_LEAST):
+            evidence = {"fraction": float(fraction[start:end].max())}
+            yield observation.fact("event", type, (observation.log.things[stuff].name,), (start, end), evidence)

@@ -1,0 +1,90 @@
+"""``supports(a, b)``: a bears a noticeable share of b's weight from below, and b's weight is balanced."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from prolepsis.fluents.contact import FLICKER, is_stuff
+from prolepsis.fluents.intervals import debounce, mask_of, one_sided_means, ticks_of
+from prolepsis.fluents.kinematics import BALANCE_WINDOW, balanced
+from prolepsis.fluents.observation import Observation, is_held_from_outside
+from prolepsis.fluents.registry import fluent
+from prolepsis.fluents.resting import fixed_supports
+from prolepsis.fluents.touch import touches
+from prolepsis.things import FloatArray, IntArray
+from prolepsis.timeline import Fact
+
+NOTICEABLE_SHARE = 0.1
+"""Share of b's weight [1] that a must bear."""
+SUPPORT_GAP = 0.05
+"""Gap in a support that is not noticed [s]; within it a thing would fall by 12 mm."""
+SUPPORT_LEAST = 0.05
+"""Shortest support [s]; what touches for less is an impact."""
+
+Pair = tuple[int, int]
+
+
+@fluent("supports", "o1", "o2")
+def supports(observation: Observation) -> Iterator[Fact]:
+    """o1 bears at least a tenth of o2's weight through contacts that lie under o2, and o2's weight is balanced."""
+    for (below, above), stretches in observation.of(support_runs).items():
+        if is_stuff(observation, below) or is_stuff(observation, above):
+            continue
+        names = observation.unit_names[below], observation.unit_names[above]
+        bearing = observation.of(bearing_forces)[below, above]
+        weight = observation.mass(above) * observation.gravity
+        for start, end in stretches:
+            force = float(bearing[start:end].mean())
+            evidence = {"share": force / float(weight[start:end].mean()), "mean_force": force}
+            yield observation.fact("fluent", "supports", names, (start, end), evidence)
+    whole = 0, observation.tick_count
+    for below, above in observation.of(fixed_supports):
+        names = observation.unit_names[below], observation.unit_names[above]
+        yield observation.fact("fluent", "supports", names, whole, {"share": 1.0})
+
+
+def support_runs(observation: Observation) -> dict[Pair, IntArray]:
+    """Return when each unit bears each other one, parts of stuffs included: (below, above) to runs."""
+    dt, count = observation.dt, observation.tick_count
+    at_rest = observation.of(balanced)
+    window = ticks_of(BALANCE_WINDOW, dt)
+    found: dict[Pair, IntArray] = {}
+    for touch in observation.of(touches):
+        for below, above, bearing in ((touch.a, touch.b, touch.bears_b), (touch.b, touch.a, touch.bears_a)):
+            if not (bearing > 0).any() or not _has_weight(observation, above):
+                continue
+            weight = observation.mass(above) * observation.gravity
+            past, future = one_sided_means(touch.series(bearing, count), window)
+            touching = mask_of(debounce(touch.mask(count, dt), dt, gap=FLICKER), count)
+            bears = touching & (np.maximum(past, future) > NOTICEABLE_SHARE * weight) & at_rest[above]
+            stretches = debounce(bears, dt, gap=SUPPORT_GAP, least=min(SUPPORT_LEAST, count * dt))
+            if len(stretches):
+                found[below, above] = stretches
+    return found
+
+
+def bearing_forces(observation: Observation) -> dict[Pair, FloatArray]:
+    """Return the upward force of each unit on each one it supports [N], at each tick: (below, above) to (T,)."""
+    known = observation.of(support_runs)
+    count = observation.tick_count
+    found: dict[Pair, FloatArray] = {}
+    for touch in observation.of(touches):
+        for pair, bearing in (((touch.a, touch.b), touch.bears_b), ((touch.b, touch.a), touch.bears_a)):
+            if pair in known:
+                found[pair] = touch.series(bearing, count)
+    return found
+
+
+def supporters(observation: Observation) -> dict[int, list[tuple[int, IntArray]]]:
+    """Return, for each unit that is borne, by whom and when."""
+    found: dict[int, list[tuple[int, IntArray]]] = {}
+    for (below, above), stretches in observation.of(support_runs).items():
+        found.setdefault(above, []).append((below, stretches))
+    return found
+
+
+def _has_weight(observation: Observation, unit: int) -> bool:
+    thing = observation.log.things[unit]
+    return not thing.fixed and not is_held_from_outside(observation, unit) and thing.mass > 0
