@@ -5,24 +5,24 @@ from __future__ import annotations
 import json
 import shutil
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, cast
 
-from prolepsis.domain import Domain
 from prolepsis.errors import InputError, LogError, ScenarioError
 from prolepsis.log import Log
 from prolepsis.log_files import read_log_files, write_log_files
+from prolepsis.saved import read_timeline_files, write_timeline_files
 from prolepsis.scenario import Parameter, Scenario
 from prolepsis.scene.scene import Scene
 from prolepsis.sealed import check_replaceable, read_sealed, to_json, write_sealed
 from prolepsis.terms import Value, format_value, parse_term
 from prolepsis.timeline import Timeline
 
-Progress = Callable[[str, float], None]
-"""Called with what is being done and the fraction of it that is done."""
+Progress = Callable[[str], None]
+"""Called from time to time with a few words on what is being done."""
 
-SCENARIO, DOMAIN, TIMELINE, WORLD = "scenario.json", "domain.json", "timeline.json", "world.xml"
+SCENARIO, WORLD = "scenario.json", "world.xml"
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -60,7 +60,7 @@ class Projection:
             LogError: If the folder is not whole, or holds no projection.
         """
         path = read_sealed(folder)
-        timeline = _read_timeline(path)
+        timeline = read_timeline_files(path)
         log = read_log_files(path)
         try:
             scenario = _scenario(json.loads((path / SCENARIO).read_text(encoding="utf-8")), path)
@@ -73,9 +73,7 @@ class Projection:
     def _write(self, path: Path) -> None:
         write_log_files(self.log, path)
         (path / WORLD).write_text(self.world, encoding="utf-8")
-        (path / DOMAIN).write_text(to_json(asdict(self.timeline.domain)), encoding="utf-8")
-        facts = {"dt": self.timeline.dt, "duration": self.timeline.duration, "facts": self.timeline.to_json()}
-        (path / TIMELINE).write_text(to_json(facts), encoding="utf-8")
+        write_timeline_files(self.timeline, path)
         names = _copy_names(self.scenario.situation)
         for name, source in names.items():
             shutil.copyfile(source, path / name)
@@ -96,7 +94,7 @@ def project(
         scenario: A scenario, or its TOML file.
         out: Folder to save the projection in.
         settings: Values by name, of parameters (``Force``) and of the knowledge base (``eggshell3.friction``).
-        progress: Called from time to time with the stage and the fraction of it done.
+        progress: Called from time to time with what is being done.
         parameters: More settings of parameters, ``Force=25`` or ``force="force7"``.
 
     Raises:
@@ -107,11 +105,8 @@ def project(
     if out is not None:
         check_replaceable(out)
 
-    def tell(stage: str, fraction: float) -> None:
-        if progress is not None:
-            progress(stage, fraction)
-
-    tell("reading the knowledge", 0.0)
+    tell = progress or _silent
+    tell("reading the knowledge")
     knowledge = read.knowledge_base()
     # What physics imports takes a moment, and a wrong scenario is refused before it.
     from prolepsis.fluents import recognize
@@ -121,47 +116,32 @@ def project(
 
     scene = compose(knowledge)
     program = read_program(read.bound_plan(), scene)
-    tell("building the world", 0.0)
-    world = compile_world(scene, seed=read.seed)
+    tell("building the world")
+    world = compile_world(scene)
     log = simulate(
         world,
         program,
         duration=read.duration,
         seed=read.seed,
-        progress=lambda fraction: tell("simulating", fraction),
+        progress=lambda time: tell(f"simulating: {time:.1f} s"),
     )
-    tell("recognizing", 0.0)
+    tell("recognizing")
     timeline = recognize(log, domain=scene.domain)
     result = Projection(scenario=read, scene=scene, log=log, timeline=timeline, world=world.xml())
     if out is not None:
-        tell("saving", 0.0)
+        tell("saving")
         result.save(out)
     return result
+
+
+def _silent(doing: str) -> None:
+    """Tell nobody."""
 
 
 def read_scenario(scenario: Scenario | str | Path, settings: Mapping[str, float | str]) -> Scenario:
     """Return a scenario, read from its file if need be, with ``settings`` applied."""
     read = scenario if isinstance(scenario, Scenario) else Scenario.load(scenario)
     return read.with_settings(settings)
-
-
-def read_timeline(folder: str | Path) -> Timeline:
-    """Return the timeline of a saved projection, without reading its log's tables into memory.
-
-    Raises:
-        LogError: If the folder is not whole, or holds no projection.
-    """
-    return _read_timeline(read_sealed(folder))
-
-
-def _read_timeline(path: Path) -> Timeline:
-    try:
-        rows: dict[str, Any] = json.loads((path / TIMELINE).read_text(encoding="utf-8"))
-        domain: dict[str, Any] = json.loads((path / DOMAIN).read_text(encoding="utf-8"))
-        known = Domain(**{name: tuple(tuple(row) for row in value) for name, value in domain.items()})
-        return Timeline.from_json(rows["facts"], dt=rows["dt"], duration=rows["duration"], domain=known)
-    except (OSError, KeyError, TypeError, ValueError, InputError) as error:
-        raise LogError(f"{path}: holds no timeline: {error}") from None
 
 
 def _copy_names(sources: tuple[Path, ...]) -> dict[str, Path]:

@@ -139,9 +139,11 @@ class Recorder:
         low = np.where(flipped, things[:, 1], things[:, 0])
         high = np.where(flipped, things[:, 0], things[:, 1])
         keep = (normal_force > 0) & (low >= 0) & (low != high)
-        columns = (tick, low, high, version, np.where(flipped, geoms[:, 1], geoms[:, 0]), np.where(flipped, geoms[:, 0], geoms[:, 1]))
-        key = np.stack([column[keep] for column in columns], axis=1)
-        rows, group = np.unique(key, axis=0, return_inverse=True)
+        first, second = np.where(flipped, geoms[:, 1], geoms[:, 0]), np.where(flipped, geoms[:, 0], geoms[:, 1])
+        span = int(geoms.max(initial=0)) + 1
+        key = ((tick * len(self.versions) + version) * span + first) * span + second
+        _, sample, group = np.unique(key[keep], return_index=True, return_inverse=True)
+        rows = np.stack([tick[keep], low[keep], high[keep]], axis=1)[sample]
         group = group.ravel()
         size = len(rows)
         weight = (normal_force * step)[keep]
@@ -154,9 +156,9 @@ class Recorder:
         length = np.linalg.norm(normal, axis=1, keepdims=True)
         # The peak is that of the pair at one substep, so contact points of the same substep add up first.
         substep = np.repeat(np.arange(len(self.contacts)), counts)[active][keep]
-        moment, at = np.unique(np.stack([group, substep], axis=1), axis=0, return_inverse=True)
+        moment, at = np.unique(group * len(self.contacts) + substep, return_inverse=True)
         peak = np.zeros(size)
-        np.maximum.at(peak, moment[:, 0], np.bincount(at.ravel(), weights=normal_force[keep]))
+        np.maximum.at(peak, moment // len(self.contacts), np.bincount(at.ravel(), weights=normal_force[keep]))
         return Contacts(
             tick=rows[:, 0],
             a=rows[:, 1],

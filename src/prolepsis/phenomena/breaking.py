@@ -180,8 +180,10 @@ class Breaking:
             if len(graph.fragments()) > 1:
                 break
             graph = graph.assembled()
-        fragment.graph = graph
-        fragment.calm = _calm(graph) if len(graph.response) else math.inf
+        if detached:
+            fragment.graph = graph
+            fragment.checked = None
+            fragment.calm = _calm(graph) if len(graph.response) else math.inf
         return detached
 
     def _fall_apart(self, state: State) -> None:

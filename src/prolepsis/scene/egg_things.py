@@ -5,8 +5,6 @@ Until liquids exist, a stuff is a handful of soft balls that come free when the 
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from prolepsis.robots.hand import rotate
@@ -111,6 +109,5 @@ def _placed(egg: Thing, offset: FloatArray) -> Triple:
 
 def egg_things(egg: Thing, shell: Thing, stuffs: tuple[tuple[Thing, str], ...]) -> tuple[Thing, ...]:
     """Return an egg with its parts, pieces and blobs, in that order."""
-    whole = replace(egg, roles=egg.roles | {"Breakable"})
     parts = (shell, *(stuff for stuff, _ in stuffs))
-    return (whole, *parts, *shell_pieces(egg, shell), *blobs(egg, stuffs))
+    return (egg, *parts, *shell_pieces(egg, shell), *blobs(egg, stuffs))

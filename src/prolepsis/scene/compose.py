@@ -1,0 +1,195 @@
+"""From knowledge to a scene: each individual becomes a thing with a shape, a place and quantities."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import mujoco
+import numpy as np
+
+from prolepsis.errors import KnowledgeError
+from prolepsis.knowledge.knowledge_base import KnowledgeBase
+from prolepsis.robots.hand import HAND
+from prolepsis.scene.egg_things import egg_things
+from prolepsis.scene.placing import resting_height
+from prolepsis.scene.scene import Scene
+from prolepsis.shapes import SHAPES
+from prolepsis.things import Quaternion, Shape, Thing
+
+ROLES = (
+    "Gripper",
+    "Container",
+    "Breakable",
+    "Stuff",
+    "Liquid",
+    "Furniture",
+    "Floor",
+    "Table",
+    "Egg",
+    "EggShell",
+    "WetThing",
+    "DirtyThing",
+)
+"""Classes that physics or recognition goes by."""
+COLOURS = {
+    "Egg": (0.93, 0.84, 0.73, 1.0),
+    "Table": (0.60, 0.44, 0.30, 1.0),
+    "Bowl": (0.62, 0.78, 0.85, 0.55),
+    "Cup": (0.75, 0.42, 0.32, 1.0),
+    "Block": (0.80, 0.62, 0.36, 1.0),
+    "Ball": (0.78, 0.24, 0.22, 1.0),
+    "Sponge": (0.95, 0.83, 0.30, 1.0),
+}
+"""Colours of classes, for pictures only."""
+GRIPPER_SHAPE = "parallelGripper"
+STUFFS = {"EggYolk": "yolk", "EggWhite": "white"}
+"""Stuffs that are modelled as balls inside an egg, and their sort."""
+
+
+def compose(kb: KnowledgeBase) -> Scene:
+    """Return the scene of a situation.
+
+    Raises:
+        KnowledgeError: If something has no shape or place that can be simulated.
+    """
+    wholes = [name for name in kb.objects if kb.whole(name) is None]
+    below = {subject: place for relation, subject, place in kb.relations() if relation == "on"}
+    made: dict[str, tuple[Thing, ...]] = {}
+    for name in _supporters_first(wholes, below):
+        made[name] = _things_of(kb, name, made, below.get(name))
+    return Scene(things=tuple(thing for name in wholes for thing in made[name]), domain=kb.domain())
+
+
+def _supporters_first(names: list[str], below: dict[str, str]) -> list[str]:
+    """Return the names such that what others rest on comes before them."""
+    ordered: list[str] = []
+    waiting = list(names)
+    while waiting:
+        ready = [name for name in waiting if below.get(name) not in waiting]
+        if not ready:
+            raise KnowledgeError(f"{', '.join(waiting)} rest on each other in a circle")
+        ordered += ready
+        waiting = [name for name in waiting if name not in ready]
+    return ordered
+
+
+def _things_of(kb: KnowledgeBase, name: str, made: dict[str, tuple[Thing, ...]], rests_on: str | None) -> tuple[Thing, ...]:
+    thing = _thing(kb, name)
+    under = made.get(rests_on, ()) if rests_on is not None else ()
+    if rests_on is not None:
+        thing = _put_on(kb, thing, rests_on, under)
+    if kb.value(name, "shape").value == GRIPPER_SHAPE:
+        opening = kb.quantity(name, "opening")
+        if opening > HAND.max_opening:
+            raise KnowledgeError(f"{name}: opening {opening:g} m, allowed up to {HAND.max_opening:g} m")
+        hand = HAND.things(
+            name,
+            position=thing.position,
+            orientation=thing.orientation,
+            opening=opening,
+            friction=kb.quantity(name, "friction"),
+        )
+        return (replace(hand[0], roles=thing.roles, kind=thing.kind), *hand[1:])
+    if kb.is_a(name, "Egg"):
+        return _egg(kb, thing)
+    return (thing,)
+
+
+def _thing(kb: KnowledgeBase, name: str) -> Thing:
+    """Return a whole as a thing at its stated place."""
+    if not any(known == "shape" for known in kb.quantities(name)):
+        raise KnowledgeError(f"{name} ({kb.kind(name)}) has no shape; state :shape, one of {', '.join(SHAPES)}")
+    kind = kb.kind(name)
+    shape = str(kb.value(name, "shape").value)
+    quantities = {p: float(k.value) for p, k in kb.quantities(name).items() if isinstance(k.value, float)}
+    quantities["surfaceFriction"] = quantities["friction"]
+    fixed = kb.is_a(name, "Furniture")
+    if shape == GRIPPER_SHAPE:
+        geoms = ()
+    elif shape in SHAPES:
+        family = "table" if kb.is_a(name, "Table") and shape == "box" else shape
+        try:
+            geoms = SHAPES[family](quantities)
+        except KeyError as missing:
+            raise KnowledgeError(f"{name} ({kind}) is a {shape} but has no {missing.args[0]}") from None
+    else:
+        raise KnowledgeError(f"{name}: shape {shape} cannot be built; known: {', '.join(SHAPES)}")
+    if not fixed and geoms and "mass" not in quantities:
+        raise KnowledgeError(f"{name} ({kind}) has no mass and no density to derive it from")
+    default_height = 0.0
+    if fixed and geoms and geoms[0].type != "plane":
+        default_height = quantities.get("height", 0.0) / 2
+    orientation = _orientation(quantities)
+    return Thing(
+        name=name,
+        kind=kind,
+        shape=Shape(geoms=geoms, colour=COLOURS.get(kind, Shape().colour)),
+        position=(quantities.get("x", 0.0), quantities.get("y", 0.0), quantities.get("z", default_height)),
+        orientation=orientation,
+        mass=quantities.get("mass", 0.0),
+        roles=frozenset(c for c in kb.classes(name) if c in ROLES),
+        fixed=fixed,
+        quantities=quantities,
+    )
+
+
+def _orientation(q: dict[str, float]) -> Quaternion:
+    """Return the quaternion of yaw about z, then pitch about y, then roll about x [rad]."""
+    result = np.array([1.0, 0.0, 0.0, 0.0])
+    for angle, axis in ((q.get("yaw", 0.0), (0, 0, 1)), (q.get("pitch", 0.0), (0, 1, 0)), (q.get("roll", 0.0), (1, 0, 0))):
+        turn, product = np.zeros(4), np.zeros(4)
+        mujoco.mju_axisAngle2Quat(turn, np.asarray(axis, dtype=np.float64), angle)
+        mujoco.mju_mulQuat(product, result, turn)
+        result = product
+    w, x, y, z = (float(v) for v in result)
+    return (w, x, y, z)
+
+
+def _put_on(kb: KnowledgeBase, thing: Thing, name: str, under: tuple[Thing, ...]) -> Thing:
+    """Return the thing lowered onto what it rests on; unless stated, its x and y are those of the supporter."""
+    solid = [t for t in under if t.shape.geoms and not t.roles & {"Piece", "Blob"}]
+    if not solid:
+        raise KnowledgeError(f"{thing.name} is on {name}, which has no body to rest on")
+    if "z" in thing.quantities:
+        raise KnowledgeError(f"{thing.name} is on {name} and has z stated too; state one of the two")
+    base = under[0]
+    is_hand = "Gripper" in base.roles
+    x = thing.quantities.get("x", base.position[0])
+    y = thing.quantities.get("y", base.position[1])
+    placed = replace(thing, position=(x, y, 0.0))
+    if is_hand and not placed.shape.geoms:
+        raise KnowledgeError(f"{thing.name} cannot rest on a gripper")
+    height = resting_height(placed, solid)
+    return replace(placed, position=(x, y, height))
+
+
+def _egg(kb: KnowledgeBase, egg: Thing) -> tuple[Thing, ...]:
+    shells = [part for part in kb.parts(egg.name) if kb.is_a(part, "EggShell")]
+    if len(shells) != 1:
+        raise KnowledgeError(f"{egg.name} has {len(shells)} shells, needed: 1")
+    parts = [_part(kb, part, egg) for part in kb.parts(egg.name)]
+    shell = next(part for part in parts if part.name == shells[0])
+    stuffs = tuple(
+        (part, sort) for part in parts for cls, sort in STUFFS.items() if kb.is_a(part.name, cls) and part.name != shell.name
+    )
+    # What touches the world is the shell, so the whole is as slippery as that.
+    whole = replace(egg, quantities={**egg.quantities, "friction": shell.quantities["friction"]})
+    return egg_things(whole, shell, stuffs)
+
+
+def _part(kb: KnowledgeBase, name: str, whole: Thing) -> Thing:
+    quantities = {p: float(k.value) for p, k in kb.quantities(name).items() if isinstance(k.value, float)}
+    deviations = {
+        f"{p}Deviation": float(k.deviation) for p, k in kb.quantities(name).items() if getattr(k, "deviation", None)
+    }
+    return Thing(
+        name=name,
+        kind=kb.kind(name),
+        position=whole.position,
+        orientation=whole.orientation,
+        mass=quantities.get("mass", 0.0),
+        whole=whole.name,
+        roles=frozenset(c for c in kb.classes(name) if c in ROLES) - {"Breakable", "Container"},
+        quantities={**quantities, **deviations},
+    )
+
