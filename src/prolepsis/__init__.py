@@ -1,1 +1,97 @@
-"""Simulation-based temporal projection for everyday robot manipulation."""
+"""Simulation-based temporal projection for everyday robot manipulation.
+
+::
+
+    import prolepsis
+
+    projection = prolepsis.project("examples/dropped_egg.toml", out="out/drop")
+    projection.ask("holds(broken(X), T)")
+
+Names are imported when they are first used, so that ``import prolepsis`` is fast and needs no simulator.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from prolepsis.campaign import Outcomes, sweep
+    from prolepsis.domain import Domain
+    from prolepsis.errors import (
+        InputError,
+        InvalidSimulationError,
+        MissingToolError,
+        ProlepsisError,
+    )
+    from prolepsis.fluents import recognize
+    from prolepsis.knowledge import KnowledgeBase
+    from prolepsis.log import Log
+    from prolepsis.log_files import read_log, write_log
+    from prolepsis.outcome import Grasp, judge_grasp
+    from prolepsis.projection import Projection, project
+    from prolepsis.scenario import Parameter, Scenario
+    from prolepsis.terms import Term, Variable, format_value, parse_term
+    from prolepsis.things import Geom, Shape, Thing
+    from prolepsis.timeline import Fact, Timeline
+
+_HOMES = {
+    "prolepsis.campaign": ("Outcomes", "sweep"),
+    "prolepsis.domain": ("Domain",),
+    "prolepsis.errors": ("InputError", "InvalidSimulationError", "MissingToolError", "ProlepsisError"),
+    "prolepsis.fluents": ("recognize",),
+    "prolepsis.knowledge": ("KnowledgeBase",),
+    "prolepsis.log": ("Log",),
+    "prolepsis.log_files": ("read_log", "write_log"),
+    "prolepsis.outcome": ("Grasp", "judge_grasp"),
+    "prolepsis.projection": ("Projection", "project"),
+    "prolepsis.scenario": ("Parameter", "Scenario"),
+    "prolepsis.terms": ("Term", "Variable", "format_value", "parse_term"),
+    "prolepsis.things": ("Geom", "Shape", "Thing"),
+    "prolepsis.timeline": ("Fact", "Timeline"),
+}
+_HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
+
+__all__ = [
+    "Domain",
+    "Fact",
+    "Geom",
+    "Grasp",
+    "InputError",
+    "InvalidSimulationError",
+    "KnowledgeBase",
+    "Log",
+    "MissingToolError",
+    "Outcomes",
+    "Parameter",
+    "Projection",
+    "ProlepsisError",
+    "Scenario",
+    "Shape",
+    "Term",
+    "Thing",
+    "Timeline",
+    "Variable",
+    "format_value",
+    "judge_grasp",
+    "parse_term",
+    "project",
+    "read_log",
+    "recognize",
+    "sweep",
+    "write_log",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name from its home when it is first used."""
+    home = _HOME_OF.get(name)
+    if home is None:
+        raise AttributeError(f"module 'prolepsis' has no attribute {name!r}")
+    value = getattr(importlib.import_module(home), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from prolepsis.errors import InputError, InvalidSimulationError, ProlepsisError
 from prolepsis.outcome import Grasp, judge_grasp
-from prolepsis.projection import project, read_scenario
+from prolepsis.projection import Progress, project, read_scenario
 from prolepsis.scenario import Scenario
 from prolepsis.terms import Value
 
@@ -84,7 +84,7 @@ def sweep(
     settings: Mapping[str, float | str] | None = None,
     limit: int | None = None,
     workers: int = WORKERS,
-    progress: Callable[[str, float], None] | None = None,
+    progress: Progress | None = None,
 ) -> Outcomes:
     """Project a scenario at every combination of values.
 
@@ -95,7 +95,7 @@ def sweep(
         settings: Values that are the same in all runs.
         limit: Greatest number of answers a run.
         workers: Number of processes.
-        progress: Called with what is done and the fraction done.
+        progress: Called with how many runs are done.
 
     Returns:
         The outcomes, in the order of the values. A run that fails is a row with its error.
@@ -121,7 +121,7 @@ def sweep(
         for done, future in enumerate(as_completed(futures), start=1):
             rows[futures[future]] = future.result()
             if progress is not None:
-                progress(f"{done} of {len(runs)} runs", done / len(runs))
+                progress(f"{done} of {len(runs)} runs done")
     finally:
         pool.shutdown(cancel_futures=True)
     return Outcomes(rows=tuple(rows[i] for i in range(len(runs))))

@@ -1,0 +1,42 @@
+"""``prolepsis ask``: answer a Prolog goal from a saved projection."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from typing import Any
+
+from prolepsis.commands.output import add_command, bindings, plain
+from prolepsis.errors import InputError
+
+EXAMPLE = """\
+  prolepsis ask out/drop 'holds(F, T), objOf(F, egg1)'
+  prolepsis ask out/drop 'occurs(falling(X), T1), after(T2, T1), holds(broken(X), T2)' --json
+Times T are intervals Start-End in seconds; a number for T means at that instant.
+"""
+
+
+def add_to(commands: Any) -> None:
+    """Add the command and its arguments."""
+    parser = add_command(commands, "ask", "answer a Prolog goal from a saved projection", EXAMPLE, run)
+    parser.add_argument("folder", metavar="DIR", help="folder that `prolepsis project --out` saved")
+    parser.add_argument("goal", metavar="GOAL", help="one goal; exit status 1 if it has no answer")
+    parser.add_argument("--json", action="store_true", help="print one JSON object per answer")
+    parser.add_argument("--limit", type=int, metavar="N", help="print at most N answers")
+
+
+def run(given: argparse.Namespace) -> int:
+    """Print the answers, one a line; ``no`` and exit status 1 if there is none."""
+    if given.limit is not None and given.limit < 1:
+        raise InputError(f"--limit {given.limit}: at least 1 answer must be allowed")
+    from prolepsis.saved import read_timeline
+
+    answers = read_timeline(given.folder).ask(given.goal, limit=given.limit)
+    for answer in answers:
+        if given.json:
+            print(json.dumps({name: plain(value) for name, value in answer.items()}, ensure_ascii=False))
+        else:
+            print(bindings(answer))
+    if not answers and not given.json:
+        print("no")
+    return 0 if answers else 1

@@ -1,0 +1,183 @@
+"""``prolepsis list`` and ``prolepsis describe``: what there is, and what is known of it."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from prolepsis.commands.output import add_command, table
+from prolepsis.errors import UnknownNameError
+
+if TYPE_CHECKING:
+    from prolepsis.fluents.registry import FactType
+    from prolepsis.knowledge import KnowledgeBase
+    from prolepsis.knowledge.vocabulary import ClassEntry, Property
+
+LIST_EXAMPLE = """\
+  prolepsis list actions
+  prolepsis list
+"""
+DESCRIBE_EXAMPLE = """\
+  prolepsis describe EggShell
+  prolepsis describe grasp
+  prolepsis describe supports
+  prolepsis describe friction
+"""
+
+Rows = Iterable[tuple[str, str]]
+
+
+def add_to(commands: Any) -> None:
+    """Add both commands and their arguments."""
+    parser = add_command(commands, "list", "list what there is, a line each", LIST_EXAMPLE, run_list)
+    parser.add_argument("what", nargs="?", choices=list(SECTIONS), help="what to list; everything if not given")
+    parser = add_command(
+        commands, "describe", "describe a class, property, action, fluent or event", DESCRIBE_EXAMPLE, run_describe
+    )
+    parser.add_argument("name", metavar="NAME", help="as `prolepsis list` shows it, or the name of a property")
+
+
+def run_list(given: argparse.Namespace) -> int:
+    """Print one section, or all of them with headings."""
+    if given.what:
+        print(table(SECTIONS[given.what]()))
+        return 0
+    for number, (section, rows) in enumerate(SECTIONS.items()):
+        print(("\n" if number else "") + f"{section}:")
+        print(table(rows(), indent="  "))
+    return 0
+
+
+def run_describe(given: argparse.Namespace) -> int:
+    """Print what is known of a name."""
+    print(describe(given.name))
+    return 0
+
+
+def describe(name: str) -> str:
+    """Return what is known of a class, property, action, fluent or event.
+
+    Raises:
+        UnknownNameError: If there is none of that name.
+    """
+    from prolepsis.programs import ACTIONS
+
+    knowledge, facts = _knowledge(), _facts()
+    vocabulary = knowledge.vocabulary
+    lower = name[:1].lower() + name[1:]
+    if name in vocabulary.classes:
+        return _class(vocabulary.classes[name], knowledge)
+    if name in ACTIONS:
+        spec = ACTIONS[name]
+        return f"{spec.usage()}: action\n  {spec.doc}\n" + table(
+            ((parameter.name, parameter.kind) for parameter in spec.parameters), indent="  "
+        )
+    if lower in facts:
+        fact = facts[lower]
+        return f"{_usage(fact)}: {fact.kind}\n  {fact.doc}"
+    if name in vocabulary.properties:
+        return _property(vocabulary.properties[name], knowledge)
+    known = (*vocabulary.classes, *ACTIONS, *facts, *vocabulary.properties)
+    raise UnknownNameError.of("class, property, action, fluent or event", name, known)
+
+
+def examples_folder() -> Path:
+    """Return where the example scenarios are: in the installed package, or beside the source tree."""
+    package = Path(__file__).resolve().parent.parent
+    installed = package / "examples"
+    return installed if installed.is_dir() else package.parent.parent / "examples"
+
+
+def _objects() -> Rows:
+    knowledge = _knowledge()
+    for name, entry in knowledge.vocabulary.classes.items():
+        if "PhysicalObject" in knowledge.vocabulary.told_classes((name,)):
+            yield name, _first_line(entry.comment)
+
+
+def _actions() -> Rows:
+    from prolepsis.programs import ACTIONS
+
+    return ((spec.usage(), _first_line(spec.doc)) for _, spec in sorted(ACTIONS.items()))
+
+
+def _fluents() -> Rows:
+    return ((_usage(fact), _first_line(fact.doc)) for fact in _facts().values() if fact.kind == "fluent")
+
+
+def _events() -> Rows:
+    return ((_usage(fact), _first_line(fact.doc)) for fact in _facts().values() if fact.kind == "event")
+
+
+def _examples() -> Rows:
+    for file in sorted(examples_folder().glob("*.toml")):
+        first = file.read_text(encoding="utf-8").splitlines()[:1]
+        yield str(file), first[0].lstrip("# ") if first and first[0].startswith("#") else ""
+
+
+SECTIONS: Mapping[str, Callable[[], Rows]] = {
+    "objects": _objects,
+    "actions": _actions,
+    "fluents": _fluents,
+    "events": _events,
+    "examples": _examples,
+}
+
+
+def _knowledge() -> KnowledgeBase:
+    from prolepsis.knowledge import KnowledgeBase
+
+    return KnowledgeBase.load()
+
+
+def _facts() -> dict[str, FactType]:
+    from prolepsis.fluents import EVENTS, FLUENTS
+
+    return dict(sorted({**FLUENTS, **EVENTS}.items()))
+
+
+def _usage(fact: FactType) -> str:
+    return f"{fact.name}({', '.join(fact.arguments)})" if fact.arguments else fact.name
+
+
+def _class(entry: ClassEntry, knowledge: KnowledgeBase) -> str:
+    vocabulary = knowledge.vocabulary
+    lines = [f"{entry.name}: {'defined class, inferred by the reasoner' if entry.defined else 'class'}"]
+    lines += [f"  {entry.comment}"] if entry.comment else []
+    above = [name for name in vocabulary.told_classes((entry.name,)) if name != entry.name]
+    below = [name for name, other in vocabulary.classes.items() if entry.name in other.parents]
+    for title, names in (("parents", entry.parents), ("all superclasses", above), ("subclasses", below)):
+        lines += [f"  {title}: {', '.join(names)}"] if names else []
+    lines += [f"  corresponds to: {', '.join(entry.alignments)}"] if entry.alignments else []
+    lines += [f"  default part: {part.kind} ({part.certainty}: {part.source})" for part in entry.parts]
+    rows = [("default", "value", "sd", "unit", "from", "how known")]
+    for name in sorted(vocabulary.properties):
+        found = knowledge.default_of((entry.name, *above), name)
+        if found is not None:
+            owner, default = found
+            value = f"{default.value:.6g}" if isinstance(default.value, float) else default.value
+            deviation = f"{default.deviation:.3g}" if default.deviation else ""
+            how = f"{default.certainty}: {default.source}"
+            rows.append((name, value, deviation, vocabulary.properties[name].si_unit, owner, how))
+    return "\n".join(lines) + ("\n" + table(rows, indent="  ") if len(rows) > 1 else "")
+
+
+def _property(entry: Property, knowledge: KnowledgeBase) -> str:
+    unit = f" [{entry.unit}]" if entry.unit else ""
+    lines = [f"{entry.name}{unit}: property ({entry.kind})"]
+    lines += [f"  {entry.comment}"] if entry.comment else []
+    lines += [f"  allowed: {entry.bounds}"] if entry.bounds else []
+    lines += [f"  parents: {', '.join(entry.parents)}"] if entry.parents else []
+    owners = [
+        name
+        for name, other in knowledge.vocabulary.classes.items()
+        if any(default.property == entry.name for default in other.defaults)
+    ]
+    lines += [f"  classes with a default: {', '.join(owners)}"] if owners else []
+    return "\n".join(lines)
+
+
+def _first_line(text: str) -> str:
+    return text.strip().split("\n")[0]

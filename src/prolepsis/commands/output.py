@@ -1,0 +1,118 @@
+"""How commands print: values, tables, and a progress line on standard error."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from prolepsis.errors import InputError
+
+if TYPE_CHECKING:
+    from prolepsis.terms import Value
+
+QUIET = 1.0
+"""No progress is shown before this time [s]."""
+
+
+def add_command(commands: Any, name: str, doc: str, example: str, run: Callable[[Any], int]) -> argparse.ArgumentParser:
+    """Return the parser of a new command, whose help ends with an example."""
+    parser: argparse.ArgumentParser = commands.add_parser(
+        name,
+        help=doc,
+        description=doc[:1].upper() + doc[1:] + ".",
+        epilog=f"example:\n{example.rstrip()}",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.set_defaults(run=run)
+    return parser
+
+
+def add_progress(parser: argparse.ArgumentParser) -> None:
+    """Add the option that shows progress also when standard error is no terminal."""
+    parser.add_argument("--progress", action="store_true", help="show progress also when not at a terminal")
+
+
+def settings(pairs: Sequence[str]) -> dict[str, str]:
+    """Return NAME=VALUE arguments as a mapping.
+
+    Raises:
+        InputError: If one is not of this form or a name is given twice.
+    """
+    result: dict[str, str] = {}
+    for pair in pairs:
+        name, equals, value = pair.partition("=")
+        if not equals or not name.strip() or not value.strip():
+            raise InputError(f"{pair!r}: is not of the form NAME=VALUE")
+        if name.strip() in result:
+            raise InputError(f"{name.strip()}: is given twice")
+        result[name.strip()] = value.strip()
+    return result
+
+
+@contextmanager
+def progress_line(wanted: bool) -> Generator[Callable[[str], None]]:
+    """Yield a function that shows what is being done on one line of standard error, and clear it at the end."""
+    terminal = sys.stderr.isatty()
+    began = time.monotonic()
+    width = 0
+
+    def show(doing: str) -> None:
+        nonlocal width
+        elapsed = time.monotonic() - began
+        if not (terminal or wanted) or (terminal and elapsed < QUIET):
+            return
+        line = f"{doing} ({elapsed:.0f} s)"
+        print(f"\r{line.ljust(width)}" if terminal else line, end="" if terminal else "\n", file=sys.stderr, flush=True)
+        width = len(line)
+
+    try:
+        yield show
+    finally:
+        if terminal and width:
+            print("\r" + " " * width + "\r", end="", file=sys.stderr, flush=True)
+
+
+def plain(value: Value) -> Any:
+    """Return an answer's value for JSON: numbers, names and lists as they are, terms as Prolog writes them."""
+    from prolepsis.terms import format_value
+
+    if isinstance(value, tuple):
+        return [plain(item) for item in value]
+    return value if isinstance(value, str | int | float) else format_value(value)
+
+
+def bindings(answer: Mapping[str, Value]) -> str:
+    """Return an answer for people, ``F = broken(egg1), T = 0.4-2.0``; of a goal without variables, ``yes``."""
+    from prolepsis.terms import format_value
+
+    return ", ".join(f"{name} = {format_value(value)}" for name, value in answer.items()) or "yes"
+
+
+def table(rows: Iterable[Sequence[str]], *, indent: str = "") -> str:
+    """Return rows of text in aligned columns, a line each. Columns of numbers stand to the right."""
+    kept = [list(row) for row in rows]
+    if not kept:
+        return ""
+    columns = list(zip(*kept, strict=True))
+    widths = [max(map(len, column)) for column in columns]
+    numeric = [all(_is_number(cell) for cell in column[1:] if cell) and len(column) > 1 for column in columns]
+    lines = (
+        "  ".join(
+            cell.rjust(width) if right else cell.ljust(width)
+            for cell, width, right in zip(row, widths, numeric, strict=True)
+        )
+        for row in kept
+    )
+    return "\n".join(indent + line.rstrip() for line in lines)
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return cell == "-"
+    return True

@@ -1,0 +1,47 @@
+"""``prolepsis timeline``: what held and occurred in a saved projection, in order of time."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from prolepsis.commands.output import add_command, table
+
+EXAMPLE = """\
+  prolepsis timeline out/drop
+  prolepsis timeline out/drop --json
+"""
+
+
+def add_to(commands: Any) -> None:
+    """Add the command and its arguments."""
+    parser = add_command(commands, "timeline", "print what held and occurred in a saved projection", EXAMPLE, run)
+    parser.add_argument("folder", metavar="DIR", help="folder that `prolepsis project --out` saved")
+    parser.add_argument(
+        "--json", action="store_true", help="print one JSON object a fact: kind, type, args, start, end, evidence"
+    )
+
+
+def run(given: argparse.Namespace) -> int:
+    """Print the facts."""
+    from prolepsis.saved import read_timeline
+    from prolepsis.terms import format_value
+
+    timeline = read_timeline(given.folder)
+    if given.json:
+        for row in timeline.to_json():
+            print(json.dumps(row, ensure_ascii=False))
+        return 0
+    rows = [
+        (f"{fact.start:.3f}", f"{fact.end:.3f}", fact.kind, format_value(fact.term), evidence(fact.evidence))
+        for fact in timeline.facts
+    ]
+    print(table([("start[s]", "end[s]", "kind", "what", "evidence"), *rows]))
+    return 0
+
+
+def evidence(found: Mapping[str, float | str]) -> str:
+    """Return evidence in one line, numbers with four digits."""
+    return ", ".join(f"{name}={value if isinstance(value, str) else f'{value:.4g}'}" for name, value in found.items())
