@@ -1,0 +1,13 @@
+/*  The module in which goals run: it has what they may use, and nothing of its own. */
+
+:- module(query, []).
+:- use_module(library(lists)).
+:- use_module(library(apply)).
+:- use_module(library(aggregate)).
+:- use_module(library(pairs)).
+:- use_module(library(ordsets)).
+:- use_module(library(solution_sequences)).
+:- use_module(library(yall)).
+:- use_module(timeline).
+:- use_module(allen).
+:- use_module(knowledge).

@@ -1,0 +1,198 @@
+/*  Runs: where the facts of each projection are kept, apart from those of every other.
+
+    A run is a module of its own. Its facts are flat, one clause each, in the order of the timeline:
+
+        fluent(Type, First, Second, Term, Start, End, Id)       event/7 alike
+        proof(Id, Name, Value)      evidence behind a fact
+        span(Start, End)            each distinct interval once, by start and end
+        type(Type, Kind)            the types that occur
+        wide(Type)                  those with more than two arguments
+        instance/2, part/2, value/3, relation/1       domain knowledge
+
+    First and Second repeat the first two arguments of Term ([] when there are fewer), so that the
+    just-in-time index finds them. When a run is loaded, its facts become static.
+*/
+
+:- module(runs,
+          [ load_run/2,                 % +Run, +File
+            drop_run/1,                 % +Run
+            known_run/2,                % ?Run, -Module
+            current_run/1,              % -Module
+            with_run/2,                 % +Run, :Goal
+            row/6,                      % +Kind, ?Term, ?Start, ?End, ?Id, +Module
+            table_row/9,                % +Kind, +Module, ?Type, ?First, ?Second, ?Term, ?Start, ?End, ?Id
+            flat/4                      % +Term, -Type, -First, -Second
+          ]).
+:- use_module(library(error)).
+:- use_module(library(lists)).
+:- use_module(chronicles).
+
+:- meta_predicate with_run(+, 0).
+:- dynamic known_run/2.
+
+% Tables of a run: those whose clauses come from the file, and those that follow from them.
+table(fluent/7).
+table(event/7).
+table(proof/3).
+table(span/2).
+table(type/2).
+table(wide/1).
+table(tick/1).
+table(instance/2).
+table(part/2).
+table(value/3).
+table(relation/1).
+
+%!  load_run(+Run:atom, +File) is det.
+%
+%   Read the facts of Run from File, replacing a run of that name.
+
+load_run(Run, File) :-
+    must_be(atom, Run),
+    drop_run(Run),
+    atom_concat('run ', Run, Module),
+    forall(table(Table), dynamic(Module:Table)),
+    setup_call_cleanup(open(File, read, In, [encoding(utf8)]),
+                       read_rows(In, Module, 0, Last),
+                       close(In)),
+    index_types(Module),
+    index_spans(Module),
+    assertz(known_run(Run, Module)),
+    with_run(Run, add_chronicles(Module, Last)),
+    forall(( table(Table), make_head(Table, Head), \+ \+ clause(Module:Head, true) ),
+           compile_predicates([Module:Table])).
+
+make_head(Name/Arity, Head) :-
+    functor(Head, Name, Arity).
+
+read_rows(In, Module, Id0, Last) :-
+    read_term(In, Row, []),
+    (   Row == end_of_file
+    ->  Last = Id0
+    ;   add_row(Row, Module, Id0, Id),
+        read_rows(In, Module, Id, Last)
+    ).
+
+add_row(fluent(Term, Start, End), Module, Id0, Id) =>
+    Id is Id0+1,
+    flat(Term, Type, First, Second),
+    assertz(Module:fluent(Type, First, Second, Term, Start, End, Id)).
+add_row(event(Term, Start, End), Module, Id0, Id) =>
+    Id is Id0+1,
+    flat(Term, Type, First, Second),
+    assertz(Module:event(Type, First, Second, Term, Start, End, Id)).
+add_row(proof(Name, Value), Module, Id0, Id) =>
+    Id = Id0,
+    assertz(Module:proof(Id, Name, Value)).
+add_row(Row, Module, Id0, Id) =>
+    Id = Id0,
+    assertz(Module:Row).
+
+%!  flat(+Term, -Type, -First, -Second) is det.
+
+flat(Term, Type, First, Second) :-
+    (   compound(Term)
+    ->  Term =.. [Type, First|More],
+        (   More = [Second|_]
+        ->  true
+        ;   Second = []
+        )
+    ;   Type = Term,
+        First = [],
+        Second = []
+    ).
+
+index_types(Module) :-
+    forall(( member(Kind, [fluent, event]), distinct_type(Module, Kind, Type) ),
+           ( assertz(Module:type(Type, Kind)),
+             (   table_row(Kind, Module, Type, _, _, Term, _, _, _), functor(Term, _, Arity), Arity > 2
+             ->  assertz(Module:wide(Type))
+             ;   true
+             ) )).
+
+distinct_type(Module, Kind, Type) :-
+    findall(T, table_row(Kind, Module, T, _, _, _, _, _, _), Types),
+    sort(Types, Distinct),
+    member(Type, Distinct).
+
+index_spans(Module) :-
+    findall(S-E, ( Module:fluent(_,_,_,_,S,E,_) ; Module:event(_,_,_,_,S,E,_) ), Spans),
+    sort(Spans, Distinct),
+    retractall(Module:span(_,_)),
+    forall(member(S-E, Distinct), assertz(Module:span(S,E))).
+
+%   Chronicles are worked out once, here, and kept as events, so that every predicate finds them.
+%   Those of one file see the grounded facts and the chronicles before them.
+
+add_chronicles(Module, Last) :-
+    findall(Name/Arity, chronicle_name(Name, Arity), Names),
+    foldl_chronicles(Names, Module, Last, End),
+    (   End > Last
+    ->  index_spans(Module)
+    ;   true
+    ).
+
+foldl_chronicles([], _, Id, Id).
+foldl_chronicles([Name/Arity|Names], Module, Id0, Id) :-
+    functor(Event, Name, Arity),
+    Module:tick(Tick),
+    findall(occurrence(S, E, Event), ( chronicle(Event, S-E0), E is max(E0, S+Tick) ), Found),
+    sort(Found, Distinct),
+    (   Distinct == []
+    ->  Id1 = Id0
+    ;   assertz(Module:type(Name, event)),
+        assert_occurrences(Distinct, Module, Id0, Id1)
+    ),
+    foldl_chronicles(Names, Module, Id1, Id).
+
+assert_occurrences([], _, Id, Id).
+assert_occurrences([occurrence(S, E, Event)|More], Module, Id0, Id) :-
+    Id1 is Id0+1,
+    flat(Event, Type, First, Second),
+    assertz(Module:event(Type, First, Second, Event, S, E, Id1)),
+    assert_occurrences(More, Module, Id1, Id).
+
+%!  drop_run(+Run) is det.
+%
+%   Forget Run and free its memory; a run that is not known is none to forget.
+
+drop_run(Run) :-
+    (   retract(known_run(Run, Module))
+    ->  forall(table(Table), catch(abolish(Module:Table), error(_, _), true))
+    ;   true
+    ).
+
+%!  current_run(-Module) is det.
+
+current_run(Module) :-
+    b_getval(prolepsis_run, Module).
+
+%!  with_run(?Run, :Goal) is nondet.
+%
+%   True if Goal is true in Run. The assignment is undone on backtracking, and outside Goal.
+
+with_run(Run, Goal) :-
+    known_run(Run, Module),
+    (   nb_current(prolepsis_run, Before)
+    ->  true
+    ;   Before = none
+    ),
+    b_setval(prolepsis_run, Module),
+    call(Goal),
+    b_setval(prolepsis_run, Before).
+
+%!  row(+Kind, ?Term, ?Start, ?End, ?Id, +Module) is nondet.
+%
+%   True if Term is a fact of Kind over Start-End, in the order of the timeline.
+
+row(Kind, Term, Start, End, Id, Module) :-
+    (   var(Term)
+    ->  true
+    ;   flat(Term, Type, First, Second)
+    ),
+    table_row(Kind, Module, Type, First, Second, Term, Start, End, Id).
+
+table_row(fluent, Module, Type, First, Second, Term, Start, End, Id) :-
+    Module:fluent(Type, First, Second, Term, Start, End, Id).
+table_row(event, Module, Type, First, Second, Term, Start, End, Id) :-
+    Module:event(Type, First, Second, Term, Start, End, Id).
