@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import Grounding, event
-from prolepsis.terms import Term, Value, format_value
+from prolepsis.terms import Value, format_value
 from prolepsis.timeline import Argument, Fact
 
 _VOWELS = "aeiou"
@@ -64,6 +64,4 @@ def action_facts(observation: Observation, action: str | None = None) -> Iterato
 
 def argument_of(value: Value) -> Argument:
     """Return an argument of an action as one of a fact: numbers and atoms stay, anything else is written out."""
-    return (
-        format_value(value) if isinstance(value, (Term, tuple)) or not isinstance(value, (str, int, float)) else value
-    )
+    return value if isinstance(value, (str, int, float)) else format_value(value)

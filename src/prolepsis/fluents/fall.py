@@ -8,18 +8,22 @@ import numpy as np
 
 from prolepsis.fluents.attachment import attachment_runs, bond_runs
 from prolepsis.fluents.contact import is_stuff
-from prolepsis.fluents.intervals import debounce, mask_of, ticks_of, union
+from prolepsis.fluents.intervals import close_gaps, hysteresis, mask_of, ticks_of, union
 from prolepsis.fluents.kinematics import climb_accelerations, climb_speeds, heights
 from prolepsis.fluents.observation import Observation, is_loose
 from prolepsis.fluents.registry import event
-from prolepsis.fluents.support import NOTICEABLE_SHARE, supporters
+from prolepsis.fluents.support import supporters
 from prolepsis.fluents.touch import touches
 from prolepsis.things import BoolArray, FloatArray, IntArray
 from prolepsis.timeline import Fact
 
-FALLING_ACCELERATION = 0.8
-"""Least downward acceleration of a fall, as a share of gravity [1]: a flap that swings down on its hinge stays
-below 0.75, and so does what slides down all but the steepest slope."""
+FREE_FALL = 0.9
+"""Downward acceleration that every fall reaches, as a share of gravity [1]: a flap that swings down on its hinge
+stays below 0.75, and so does what slides down all but the steepest slope."""
+GIVING_WAY = 0.4
+"""Downward acceleration from which it may begin [1]: a support that gives way still brakes a little."""
+BRAKED = 0.5
+"""Share of the weight [1] that contacts may still bear then."""
 FALLING_HEIGHT = 0.005
 """Least height of a fall [m]: a thing that hops or settles does not fall."""
 BRUSH = 0.03
@@ -46,19 +50,19 @@ def falling(observation: Observation) -> Iterator[Fact]:
 
 def falling_runs(observation: Observation) -> dict[int, IntArray]:
     """Return when each unit falls, parts of stuffs included."""
-    past, future = observation.of(climb_accelerations)
-    limit = -FALLING_ACCELERATION * max(observation.gravity, 1e-9)
-    sinking = (np.minimum(past, future) <= limit) & (observation.of(climb_speeds) < 0)
+    steepest = np.minimum(*observation.of(climb_accelerations)) / max(observation.gravity, 1e-9)
+    sinking = (steepest <= -GIVING_WAY) & (observation.of(climb_speeds) < 0)
     lifts = observation.of(lifting_forces)
     height = observation.of(heights)
     found: dict[int, IntArray] = {}
     for unit in observation.units:
-        if not is_loose(observation, unit) or not sinking[unit].any():
+        if not is_loose(observation, unit) or not (sinking[unit] & (steepest[unit] <= -FREE_FALL)).any():
             continue
-        mask = sinking[unit] & observation.exists(unit) & ~_bonded(observation, unit)
+        mask = sinking[unit] & observation.exists(unit) & ~_held(observation, unit)
         if unit in lifts:
-            mask &= lifts[unit] < NOTICEABLE_SHARE * observation.mass(unit) * observation.gravity
-        stretches = debounce(mask, observation.dt, gap=BRUSH)
+            mask &= lifts[unit] < BRAKED * observation.mass(unit) * observation.gravity
+        gap = ticks_of(BRUSH, observation.dt)
+        stretches = close_gaps(hysteresis(mask, steepest[unit] <= -FREE_FALL), gap)
         landed = np.minimum(stretches[:, 1], observation.tick_count - 1)
         stretches = stretches[height[unit, stretches[:, 0]] - height[unit, landed] >= FALLING_HEIGHT]
         if len(stretches):
@@ -77,8 +81,11 @@ def lifting_forces(observation: Observation) -> dict[int, FloatArray]:
     return found
 
 
-def _bonded(observation: Observation, unit: int) -> BoolArray:
-    several = [stretches for pair, stretches in observation.of(bond_runs).items() if unit in pair]
+def _held(observation: Observation, unit: int) -> BoolArray:
+    """Return whether something supports, grips or is joined to a unit, at each tick, shape (T,)."""
+    several = [stretches for _, stretches in observation.of(supporters).get(unit, [])]
+    several += [stretches for pair, stretches in observation.of(bond_runs).items() if unit in pair]
+    several += [stretches for (_, held), stretches in observation.of(attachment_runs).items() if held == unit]
     return mask_of(union(several), observation.tick_count)
 
 

@@ -1,4 +1,4 @@
-"""When one rigid shape lies in a depression of another: geometry, looked at every few ticks and sharpened at the ends."""
+"""When one rigid shape lies in a depression of another: seen every few ticks, and sharpened at the ends."""
 
 from __future__ import annotations
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from prolepsis.fluents.contact import is_stuff
-from prolepsis.fluents.intervals import close_gaps, runs, ticks_of, union
+from prolepsis.fluents.intervals import close_gaps, runs, ticks_of
 from prolepsis.fluents.kinematics import centres, surface_speeds, travel
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event
@@ -23,8 +23,8 @@ STILL_SPEED = 0.002
 """Speed within one tick below which a body has not begun to move or has stopped [m/s]; it makes ends sharp."""
 PAUSE = 0.1
 """Rest that does not end a motion [s], such as the turning point of a swing."""
-MOVING_LEAST = 0.02
-"""Shortest motion [s]."""
+MOVING_WAY = 0.002
+"""Shortest way of a motion, of the outermost point [m]: a thing put down sinks in by up to a millimetre."""
 
 
 @event("moving", "o")
@@ -35,30 +35,36 @@ def moving(observation: Observation) -> Iterator[Fact]:
     for unit, stretches in observation.of(moving_runs).items():
         if is_stuff(observation, unit):
             continue
+        parts = _moving_parts(observation, unit)
         for start, end in stretches:
-            way = np.diff(place[unit, start : min(end + 1, observation.tick_count)], axis=0)
+            way = np.diff(place[parts, start : min(end + 1, observation.tick_count)], axis=1)
             evidence = {
-                "distance": float(np.linalg.norm(way, axis=1).sum()),
-                "speed": float(speed[unit, start:end].max()),
+                "distance": float(np.sqrt(np.square(way).sum(axis=2)).sum(axis=1).max()),
+                "speed": float(speed[parts, start:end].max()),
             }
             yield observation.fact("event", "moving", (observation.unit_names[unit],), (start, end), evidence)
 
 
 def moving_runs(observation: Observation) -> dict[int, IntArray]:
     """Return when each unit moves, parts of stuffs included. A hand's fingers do not count as the hand."""
-    masks = observation.of(moving_masks)
-    things = observation.log.things
-    gap, least = ticks_of(PAUSE, observation.dt), ticks_of(MOVING_LEAST, observation.dt)
+    masks, speed = observation.of(moving_masks), observation.of(surface_speeds)
+    gap = ticks_of(PAUSE, observation.dt)
     found: dict[int, IntArray] = {}
     for unit in observation.units:
-        parts = [unit] if observation.has_role(unit, "Gripper") else observation.bodies(unit)
-        exists = observation.exists(unit)
-        several = [runs(masks[part] & exists) for part in parts if not things[part].fixed and masks[part].any()]
-        stretches = close_gaps(union(several), gap)
-        stretches = stretches[stretches[:, 1] - stretches[:, 0] >= least]
+        parts = _moving_parts(observation, unit)
+        if not masks[parts].any():
+            continue
+        stretches = close_gaps(runs(masks[parts].any(axis=0) & observation.exists(unit)), gap)
+        way = np.concatenate(([0.0], np.cumsum(speed[parts].max(axis=0)) * observation.dt))
+        stretches = stretches[way[stretches[:, 1]] - way[stretches[:, 0]] >= MOVING_WAY]
         if len(stretches):
             found[unit] = stretches
     return found
+
+
+def _moving_parts(observation: Observation, unit: int) -> list[int]:
+    """Return the things whose motion is the unit's; what is fixed does not move anyway."""
+    return [unit] if observation.has_role(unit, "Gripper") else observation.bodies(unit) or [unit]
 
 
 def moving_masks(observation: Observation) -> BoolArray:

@@ -13,14 +13,9 @@ from prolepsis.things import FloatArray, Geom, Shape
 SAMPLE_SCALES = (0.25, 0.5)
 """Where samples lie between the middle (0) and the surface (1) of a solid: deep enough that a wall which the
 solid touches is at least half its least half-width away."""
+_STEPS = (-1.0, 0.0, 1.0)
 _DIRECTIONS = np.array(
-    [
-        (x, y, z)
-        for x in (-1.0, 0.0, 1.0)
-        for y in (-1.0, 0.0, 1.0)
-        for z in (-1.0, 0.0, 1.0)
-        if abs(x) + abs(y) + abs(z) in (1, 3)
-    ]
+    [(x, y, z) for x in _STEPS for y in _STEPS for z in _STEPS if abs(x) + abs(y) + abs(z) in (1.0, 3.0)]
 )
 
 

@@ -6,12 +6,19 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-import mujoco
+import mujoco  # pyright: ignore[reportMissingTypeStubs]
 import numpy as np
 
 from prolepsis.errors import InputError, UnknownNameError
 from prolepsis.things import FloatArray, Geom, IntArray, Quaternion, Shape, Thing, Triple
 
+# Numpy's integers do not equal MuJoCo's enumerators, so plain integers are compared.
+_PLANE = int(mujoco.mjtGeom.mjGEOM_PLANE)
+_FREE = int(mujoco.mjtJoint.mjJNT_FREE)
+_JOINT_DRIVES = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT))
+_SITE_DRIVES = (int(mujoco.mjtTrn.mjTRN_SITE), int(mujoco.mjtTrn.mjTRN_SLIDERCRANK))
+_TENDON_DRIVE = int(mujoco.mjtTrn.mjTRN_TENDON)
+_JOINT_WRAP, _SITE_WRAP = int(mujoco.mjtWrap.mjWRAP_JOINT), int(mujoco.mjtWrap.mjWRAP_SITE)
 _GEOM_NAMES = {
     int(mujoco.mjtGeom.mjGEOM_PLANE): "plane",
     int(mujoco.mjtGeom.mjGEOM_SPHERE): "sphere",
@@ -108,7 +115,7 @@ def _world_geoms(model: Any) -> dict[str, list[int]]:
     groups: dict[str, list[int]] = {}
     for geom in range(model.ngeom):
         if model.geom_bodyid[geom] == 0 and _collides(model, geom):
-            plane = model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_PLANE
+            plane = int(model.geom_type[geom]) == _PLANE
             name = model.geom(geom).name or ("floor" if plane else "world")
             groups.setdefault(name, []).append(geom)
     return groups
@@ -141,13 +148,13 @@ def _rigid_root(model: Any, body: int) -> int:
 def _driven_roots(model: Any) -> set[int]:
     roots = {int(model.body_rootid[b]) for b in range(1, model.nbody) if _is_mocap(model, b)}
     for actuator in range(model.nu):
-        kind = model.actuator_trntype[actuator]
+        kind = int(model.actuator_trntype[actuator])
         target = int(model.actuator_trnid[actuator, 0])
-        if kind in (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT):
+        if kind in _JOINT_DRIVES:
             roots.add(int(model.body_rootid[model.jnt_bodyid[target]]))
-        elif kind in (mujoco.mjtTrn.mjTRN_SITE, mujoco.mjtTrn.mjTRN_SLIDERCRANK):
+        elif kind in _SITE_DRIVES:
             roots.add(int(model.body_rootid[model.site_bodyid[target]]))
-        elif kind == mujoco.mjtTrn.mjTRN_TENDON:
+        elif kind == _TENDON_DRIVE:
             roots |= _tendon_roots(model, target)
     return roots - {0}
 
@@ -157,15 +164,15 @@ def _tendon_roots(model: Any, tendon: int) -> set[int]:
     first = int(model.tendon_adr[tendon])
     for wrap in range(first, first + int(model.tendon_num[tendon])):
         target = int(model.wrap_objid[wrap])
-        if model.wrap_type[wrap] == mujoco.mjtWrap.mjWRAP_JOINT:
+        if int(model.wrap_type[wrap]) == _JOINT_WRAP:
             roots.add(int(model.body_rootid[model.jnt_bodyid[target]]))
-        elif model.wrap_type[wrap] == mujoco.mjtWrap.mjWRAP_SITE:
+        elif int(model.wrap_type[wrap]) == _SITE_WRAP:
             roots.add(int(model.body_rootid[model.site_bodyid[target]]))
     return roots
 
 
 def _world_thing(model: Any, name: str, geoms: list[int]) -> Thing:
-    planes = all(model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_PLANE for geom in geoms)
+    planes = all(int(model.geom_type[geom]) == _PLANE for geom in geoms)
     shape = _shape(model, geoms)
     roles = frozenset({"Floor"}) if planes else frozenset[str]()
     return Thing(name=name, kind="Floor" if planes else "Thing", shape=shape, roles=roles, fixed=True)
@@ -176,7 +183,7 @@ def _body_thing(model: Any, data: Any, body: int, names: list[str], driven: set[
     rigid = _rigid_root(model, body)
     fixed = model.body_jntnum[rigid] == 0 and not _is_mocap(model, root)
     joint = int(model.body_jntadr[root])
-    free = joint >= 0 and model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_FREE
+    free = joint >= 0 and int(model.jnt_type[joint]) == _FREE
     roles: set[str] = set()
     if root in driven:
         roles.add("Driven")

@@ -126,11 +126,11 @@ def _bonds(
 
 
 def _welded_pair(model: Any, found: ModelThings, equality: int) -> tuple[int, int] | None:
-    kind = model.eq_type[equality]
-    if kind not in (mujoco.mjtEq.mjEQ_WELD, mujoco.mjtEq.mjEQ_CONNECT):
+    # Numpy's integers do not equal MuJoCo's enumerators, so plain integers are compared.
+    if int(model.eq_type[equality]) not in (int(mujoco.mjtEq.mjEQ_WELD), int(mujoco.mjtEq.mjEQ_CONNECT)):
         return None
     ends = [int(model.eq_obj1id[equality]), int(model.eq_obj2id[equality])]
-    if model.eq_objtype[equality] == mujoco.mjtObj.mjOBJ_SITE:
+    if int(model.eq_objtype[equality]) == int(mujoco.mjtObj.mjOBJ_SITE):
         ends = [int(model.site_bodyid[site]) for site in ends]
     first, second = (int(found.of_body[body]) for body in ends)
     if first < 0 or second < 0 or first == second:

@@ -48,7 +48,7 @@ def contact_rows(model: Any, data: Any, tick: int) -> ContactRows | None:
     address, dim = contact.efc_address[active], contact.dim[active]
     frame = contact.frame[active].reshape(-1, 3, 3)
     rows = _elliptic(data.efc_force, address, dim)
-    if model.opt.cone != mujoco.mjtCone.mjCONE_ELLIPTIC:
+    if int(model.opt.cone) != int(mujoco.mjtCone.mjCONE_ELLIPTIC):
         rows = _pyramidal(data.efc_force, address, dim, contact.friction[active])
     # The rows of a contact frame are its axes, the normal first.
     force = np.einsum("ci,cij->cj", rows, frame)
