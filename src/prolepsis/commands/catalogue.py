@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from prolepsis.fluents.registry import FactType
     from prolepsis.knowledge import KnowledgeBase
     from prolepsis.knowledge.vocabulary import ClassEntry, Property
+    from prolepsis.programs import ActionSpec
 
 LIST_EXAMPLE = """\
   prolepsis list actions
@@ -57,30 +58,25 @@ def run_describe(given: argparse.Namespace) -> int:
 
 
 def describe(name: str) -> str:
-    """Return what is known of a class, property, action, fluent or event.
+    """Return what is known of a name; a name may stand for several, such as the fluent and the property ``broken``.
 
     Raises:
-        UnknownNameError: If there is none of that name.
+        UnknownNameError: If nothing is called so.
     """
     from prolepsis.programs import ACTIONS
 
     knowledge, facts = _knowledge(), _facts()
     vocabulary = knowledge.vocabulary
-    lower = name[:1].lower() + name[1:]
-    if name in vocabulary.classes:
-        return _class(vocabulary.classes[name], knowledge)
-    if name in ACTIONS:
-        spec = ACTIONS[name]
-        return f"{spec.usage()}: action\n  {spec.doc}\n" + table(
-            ((parameter.name, parameter.kind) for parameter in spec.parameters), indent="  "
-        )
-    if lower in facts:
-        fact = facts[lower]
-        return f"{_usage(fact)}: {fact.kind}\n  {fact.doc}"
-    if name in vocabulary.properties:
-        return _property(vocabulary.properties[name], knowledge)
-    known = (*vocabulary.classes, *ACTIONS, *facts, *vocabulary.properties)
-    raise UnknownNameError.of("class, property, action, fluent or event", name, known)
+    fact = facts.get(name[:1].lower() + name[1:])
+    found = [_class(vocabulary.classes[name], knowledge)] if name in vocabulary.classes else []
+    found += [_action(ACTIONS[name])] if name in ACTIONS else []
+    found += [f"{_usage(fact)}: {fact.kind}\n  {fact.doc}"] if fact is not None else []
+    found += [_property(vocabulary.properties[name], knowledge)] if name in vocabulary.properties else []
+    found += [_individual(name, knowledge)] if name in knowledge.individuals else []
+    if not found:
+        known = {*vocabulary.classes, *ACTIONS, *facts, *vocabulary.properties, *knowledge.individuals}
+        raise UnknownNameError.of("class, property, individual, action, fluent or event", name, known)
+    return "\n\n".join(found)
 
 
 def examples_folder() -> Path:
@@ -142,6 +138,21 @@ def _usage(fact: FactType) -> str:
     return f"{fact.name}({', '.join(fact.arguments)})" if fact.arguments else fact.name
 
 
+def _action(spec: ActionSpec) -> str:
+    from prolepsis.programs.action import KINDS
+
+    rows = ((parameter.name, KINDS[parameter.kind]) for parameter in spec.parameters)
+    return f"{spec.usage()}: action\n  {spec.doc}\n" + table(rows, indent="  ")
+
+
+def _individual(name: str, knowledge: KnowledgeBase) -> str:
+    rows = [
+        (prop, f"{known.value:.6g}" if isinstance(known.value, float) else known.value, known.unit, known.origin)
+        for prop, known in knowledge.quantities(name).items()
+    ]
+    return f"{name}: individual of {', '.join(knowledge.classes(name))}\n" + table(rows, indent="  ")
+
+
 def _class(entry: ClassEntry, knowledge: KnowledgeBase) -> str:
     vocabulary = knowledge.vocabulary
     lines = [f"{entry.name}: {'defined class, inferred by the reasoner' if entry.defined else 'class'}"]
@@ -157,7 +168,7 @@ def _class(entry: ClassEntry, knowledge: KnowledgeBase) -> str:
         found = knowledge.default_of((entry.name, *above), name)
         if found is not None:
             owner, default = found
-            value = f"{default.value:.6g}" if isinstance(default.value, float) else default.value
+            value = f"{default.value:.6g}" if isinstance(default.value, float) else str(default.value)
             deviation = f"{default.deviation:.3g}" if default.deviation else ""
             how = f"{default.certainty}: {default.source}"
             rows.append((name, value, deviation, vocabulary.properties[name].si_unit, owner, how))
