@@ -16,7 +16,7 @@ from prolepsis.phenomena.bond_graph import BondGraph
 from prolepsis.phenomena.shell_calibration import calibrated_graph
 from prolepsis.scene.egg_things import PIECE_COUNT
 from prolepsis.scene.world import MAX_STEP
-from prolepsis.state import ContactForces, State
+from prolepsis.state import State
 from prolepsis.things import FloatArray, Thing
 
 CONTACT_STEP = 2.5e-4
@@ -31,6 +31,8 @@ BETWEEN_SAMPLES = 0.9
 """Margin of the screen for contacts between its sampled points [1]."""
 DRIFT = 3.0e-4
 """A contact that has moved less than this [m], a twentieth of the spread of its force, loads the same bonds."""
+PRESSED = 0.1
+"""Fragments pressed with less than this part of what the screen allows do not need short substeps [1]."""
 TOGETHER = 0.9
 """Bonds within this fraction of the most overloaded one give way with it, which keeps a cascade short."""
 
@@ -109,47 +111,69 @@ class Breaking:
         self.fragments = [Fragment(body=thing.name, graph=graph, origin=np.zeros(3), calm=_calm(graph))]
         self.intact = True
         self.load = 0.0
-        self.peak = 0.0
+        """Greatest bond load over strength in the tick [1]; 0 while the screen shows that none can break."""
+        self.force = 0.0
+        """Greatest sum of normal forces on one body in the tick [N]."""
+        self._pressed = False
+        self._body_of: list[int] = []
         self._stiffness = 0.0
         self._version = -1
         self._watched: dict[int, Fragment] = {}
         self._set_stiffness(state, None)
 
     def substep(self, state: State) -> float:
-        """Return the substep that breaking needs now [s]."""
+        """Return the substep that breaking needs now [s], and bring the contact's stiffness up to date."""
+        self.force, self.load = 0.0, 0.0
         if self.intact:
-            return CONTACT_STEP if self._near(state) else MAX_STEP
-        return FRAGMENT_STEP if self.peak > 0.1 * min((f.calm for f in self.fragments), default=math.inf) else MAX_STEP
+            near = self._near(state)
+            self._set_stiffness(state, self._place_of_contact(state, near))
+            return CONTACT_STEP if near else MAX_STEP
+        return FRAGMENT_STEP if self._pressed else MAX_STEP
 
-    def act(self, state: State, contacts: ContactForces) -> list[Detachment]:
+    def act(self, state: State) -> list[Detachment]:
         """Break what the contact forces of the last substep overload, and return the detached bonds."""
-        self.load = 0.0
-        if not len(contacts.normal_force):
-            self.peak = 0.0
+        if not state.data.ncon:
             return []
         if self._version != state.version:
             self._version = state.version
-            self._watched = {state.model.body(f.body).id: f for f in self.fragments if len(f.graph.bonds)}
+            bodies = {f.body: f for f in self.fragments if len(f.graph.bonds)}
+            self._watched = {state.model.body(name).id: fragment for name, fragment in bodies.items()}
+            self._body_of = state.model.geom_bodyid.tolist()
+        totals = self._contact_totals(state)
+        self.force = max(self.force, *totals.values(), 0.0)
+        self._pressed = any(total > PRESSED * self._watched[body].calm for body, total in totals.items())
         detached: list[Detachment] = []
-        self.peak = 0.0
-        for body, fragment in self._watched.items():
-            second = contacts.bodies[:, 1] == body
-            chosen = second | (contacts.bodies[:, 0] == body)
-            if not chosen.any():
-                continue
-            normal = contacts.normal_force[chosen]
-            total = float(normal.sum())
-            self.peak = max(self.peak, total)
-            if self.intact:
-                self._set_stiffness(state, contacts.points[chosen][int(normal.argmax())])
-            if total < fragment.calm:
-                self.load = max(self.load, total / fragment.calm)
-                continue
-            sign = np.where(second[chosen], 1.0, -1.0)[:, None]
-            detached += self._break(state, fragment, contacts.points[chosen], sign * contacts.force[chosen], normal)
+        for body, total in totals.items():
+            fragment = self._watched[body]
+            if total >= fragment.calm:
+                detached += self._check(state, body, fragment)
         if detached:
             self._fall_apart(state)
         return detached
+
+    def _contact_totals(self, state: State) -> dict[int, float]:
+        """Return the sum of the normal forces on each body that may break [N], by body."""
+        # Plain lists: for the handful of contacts that there are, they are faster than arrays.
+        data, body_of = state.data, self._body_of
+        force = data.efc_force
+        totals = dict.fromkeys(self._watched, 0.0)
+        for (first, second), address in zip(
+            data.contact.geom.tolist(), data.contact.efc_address.tolist(), strict=True
+        ):
+            if address >= 0:
+                for geom in (first, second):
+                    if body_of[geom] in totals:
+                        totals[body_of[geom]] += float(force[address])
+        return totals
+
+    def _check(self, state: State, body: int, fragment: Fragment) -> list[Detachment]:
+        contacts = state.contact_forces()
+        second = contacts.bodies[:, 1] == body
+        chosen = second | (contacts.bodies[:, 0] == body)
+        sign = np.where(second[chosen], 1.0, -1.0)[:, None]
+        return self._break(
+            state, fragment, contacts.points[chosen], sign * contacts.force[chosen], contacts.normal_force[chosen]
+        )
 
     def _break(
         self, state: State, fragment: Fragment, points: FloatArray, forces: FloatArray, normal: FloatArray
@@ -207,8 +231,20 @@ class Breaking:
         self.fragments = new
 
     def _near(self, state: State) -> bool:
+        """Return whether anything is near the intact thing."""
         geom = state.model.geom(f"{self.thing.name}/0").id
-        return state.data.ncon > 0 and bool((state.data.contact.geom == geom).any())
+        return state.data.ncon > 0 and any(geom in pair for pair in state.data.contact.geom.tolist())
+
+    def _place_of_contact(self, state: State, near: bool) -> FloatArray | None:
+        """Return where the intact thing is pressed most, or None while nothing presses it."""
+        if not near:
+            return None
+        contacts = state.contact_forces()
+        body = state.model.body(self.thing.name).id
+        mine = (contacts.bodies == body).any(axis=1)
+        if not mine.any():
+            return None
+        return contacts.points[mine][int(contacts.normal_force[mine].argmax())]
 
     def _set_stiffness(self, state: State, point: FloatArray | None) -> None:
         """Give the contacts of the intact thing the stiffness of its shell where it touches (or will touch, below)."""

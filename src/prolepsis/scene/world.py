@@ -151,11 +151,11 @@ def add_geom(
     if not thing.fixed:
         made.mass = mass
     small = bool(thing.roles & HIDDEN_ROLES)
-    round_things = small or "Breakable" in thing.roles or geom.type in ("sphere", "ellipsoid", "capsule", "cylinder")
+    rolls = "Breakable" in thing.roles or geom.type in ("sphere", "ellipsoid", "capsule", "cylinder")
     friction = friction_of(thing)
     rolling = thing.quantities.get("rollingFriction", ROLLING_FRICTION)
     made.friction = [friction, SPINNING_FRICTION, rolling]
-    made.condim = 6 if round_things else 4
+    made.condim = 6 if rolls else 3 if small else 4
     made.priority = ranks.get(friction, 0)
     made.solref = list(SMALL_SOLREF if small else SMOOTH_SOLREF)
     made.solimp = list(SMALL_SOLIMP if small else SMOOTH_SOLIMP)
