@@ -19,8 +19,8 @@ _TOKEN = re.compile(
        |\d+\.\d+(?:[eE][+-]?\d+|Inf|NaN)?|\d+[eE][+-]?\d+|\d+)
     |(?P<variable>[A-Z_]\w*)
     |(?P<name>[^\W\d_]\w*)
-    |(?P<quoted>'(?:\\.|''|[^\\'])*')
-    |(?P<string>"(?:\\.|""|[^\\"])*")
+    |(?P<quoted>'(?:\\x[0-9a-fA-F]+\\|\\[0-7]+\\|\\.|''|[^\\'])*')
+    |(?P<string>"(?:\\x[0-9a-fA-F]+\\|\\[0-7]+\\|\\.|""|[^\\"])*")
     |(?P<symbol>[{re.escape(SYMBOLS)}]+|;|!)
     |(?P<punctuation>[()\[\]{{}},|])
     """,

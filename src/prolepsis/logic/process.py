@@ -84,7 +84,12 @@ class PrologProcess:
             prolog_path_args=["-f", "none", "-O", f"--stack-limit={STACK_LIMIT}m", "-s", str(PROLOG_FILES / "main.pl")],
         )
         self._server.start()
-        resource.prlimit(self._server.process_id(), resource.RLIMIT_AS, (PROCESS_LIMIT, PROCESS_LIMIT))
+        resource.prlimit(self.process_id, resource.RLIMIT_AS, (PROCESS_LIMIT, PROCESS_LIMIT))
+
+    @property
+    def process_id(self) -> int:
+        """Process number of SWI-Prolog."""
+        return self._server.process_id()
 
     def call(self, goal: str, seconds: float) -> str:
         """Run ``goal``, which binds ``Reply`` to a string, and return that string.

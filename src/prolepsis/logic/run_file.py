@@ -26,7 +26,8 @@ def _text(value: Argument) -> str:
 
 
 def _time(value: float) -> str:
-    return format_value(float(value))
+    text = repr(float(value))
+    return text if "e" not in text else format_value(float(value))
 
 
 def _fact_row(fact: Fact) -> str:

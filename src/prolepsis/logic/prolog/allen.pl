@@ -65,7 +65,10 @@ compare_ends(_, E1, _, E2, Relation) =>
 %
 %   True if I begins later and ends later than J: Allen's after, met_by or overlapped_by.
 
-after(I, J) :-
+after(S1-E1, S2-E2), float(S1), float(E1), float(S2), float(E2), S1 < E1, S2 < E2 =>
+    S1 > S2,
+    E1 > E2.
+after(I, J) =>
     interval(J),
     J = S2-E2,
     interval(I),

@@ -65,6 +65,9 @@ found(Time, Kind, Term, Type, Object, Run), number(Time) =>
         Time =:= 0,
         Run:relation(Term)
     ).
+found(Time, Kind, Term, _, _, Run), var(Time), nonvar(Term) =>
+    Time = Start-End,
+    row(Kind, Term, Start, End, _, Run).
 found(Time, Kind, Term, Type, Object, Run) =>
     Time = Start-End,
     exact(Start, S),

@@ -1,0 +1,144 @@
+"""The session: what it refuses and says, that it survives, that runs are apart and threads may ask at once."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+from collections.abc import Iterator
+
+import pytest
+
+from prolepsis.domain import Domain
+from prolepsis.errors import GoalError, GoalLimitError, MissingToolError
+from prolepsis.logic.session import Session
+from prolepsis.terms import Term, Variable
+from prolepsis.timeline import Fact, Timeline, make_timeline
+
+
+def timeline(name: str = "egg1") -> Timeline:
+    facts = [
+        Fact(kind="fluent", type="broken", args=(name,), start=0.5, end=2.0, evidence={"force": 35.2}),
+        Fact(kind="event", type="closingGripper", args=("g",), start=1, end=2, evidence={"level": "force7"}),
+        Fact(kind="event", type="closingGripper", args=("g",), start=3, end=4, evidence={"level": "force9"}),
+    ]
+    domain = Domain(
+        instances=((name, "Egg"),),
+        parts=((name, "shell1"),),
+        values=((name, "mass", 0.06),),
+        relations=(("on", name, "table1"),),
+    )
+    return make_timeline(facts, dt=0.001, duration=4.0, domain=domain)
+
+
+@pytest.fixture(scope="module")
+def session() -> Iterator[Session]:
+    session = Session()
+    yield session
+    session.close()
+
+
+@pytest.mark.parametrize(
+    ("goal", "message"),
+    [
+        ("holds(F, T", "syntax error at column"),
+        ("", "syntax error"),
+        ("holds(F,T). holds(G,T)", "more than one goal"),
+        ("hold(F,T)", "unknown predicate hold/2; did you mean holds/2"),
+        ("findall(X, hols(X,T), L)", "unknown predicate hols/2; did you mean holds/2"),
+        ("allen(R0, 0.1, 0.2)", "not an interval: 0.1"),
+        ("R = befor, allen(R, 0.0-1.0, 2.0-3.0)", "unknown relation 'befor'; known: before"),
+        ("X is foo + 1", "foo"),
+        ("G = shell(x), call(G)", "only when the query runs"),
+        ("call(shell, x)", "not permitted: shell"),
+        ("maplist(shell, [x])", "not permitted: shell"),
+        ("maplist([X]>>shell(X), [x])", "not permitted: shell"),
+        ("findall(X, assertz(f(X)), L)", "not permitted: assertz"),
+        ("setof(X, Y^consult(Y), L)", "not permitted: consult"),
+        ("forall(holds(F,T), retract(a))", "not permitted: retract"),
+        ("format(atom(A), '~@', [shell(x)])", "not permitted: format"),
+        ("read_term(user_input, X, [])", "not permitted: read_term"),
+        ("nb_setval(a, 1)", "not permitted: nb_setval"),
+        ("b_setval(prolepsis_run, x)", "not permitted: b_setval"),
+        ("set_prolog_flag(stack_limit, 1)", "not permitted: set_prolog_flag"),
+        ("thread_create(true, I)", "not permitted: thread_create"),
+        ("print_message(error, format('~@', [shell(x)]))", "not permitted: print_message"),
+        ("system:shell(x)", "not permitted: system:shell"),
+        ("use_module(library(process))", "not permitted: use_module"),
+        ("halt", "not permitted: halt"),
+        ("abort", "not permitted: abort"),
+    ],
+)
+def test_a_goal_that_does_more_than_ask_is_refused(session: Session, goal: str, message: str) -> None:
+    egg = timeline()
+    with pytest.raises(GoalError, match=message):
+        session.ask(egg, goal)
+    assert session.ask(egg, "holds(broken(egg1), _)") == [{}]
+
+
+def test_endless_and_boundless_goals_are_stopped(session: Session) -> None:
+    with pytest.raises(GoalLimitError, match=r"time limit of 0\.3 s"):
+        session.ask(timeline(), "repeat, fail", time_limit=0.3)
+    with pytest.raises(GoalLimitError, match="memory limit"):
+        session.ask(timeline(), "numlist(1, 1000000000, L)", time_limit=60.0)
+
+
+def test_answers_are_values(session: Session) -> None:
+    egg = timeline()
+    assert session.ask(egg, "holds(broken(X), S-E)") == [{"X": "egg1", "S": 0.5, "E": 2.0}]
+    assert session.ask(egg, "holds(F, 1.0)") == [{"F": Term("broken", ("egg1",))}]
+    assert session.ask(egg, "X = f(Y, Y)") == [{"X": Term("f", (Variable("_1"), Variable("_1"))), "Y": Variable("_1")}]
+    assert session.ask(egg, "X = f(X)")[0]["X"] is not None
+    assert session.ask(egg, "member(X, [b, a, b])") == [{"X": "b"}, {"X": "a"}]
+    assert session.ask(egg, "repeat, member(X, [a, b])", limit=2) == [{"X": "a"}, {"X": "b"}]
+    assert session.ask(egg, "X = 'a\\tb\\nc'") == [{"X": "a\tb\nc"}]
+
+
+def test_the_level_is_that_of_the_instance(session: Session) -> None:
+    egg = timeline()
+    goal = "occurs(E, S-_), eventT(E, 'ClosingGripper'), argsOf(E, [g, Level])"
+    assert [(a["S"], a["Level"]) for a in session.ask(egg, goal)] == [(1.0, "force7"), (3.0, "force9")]
+    assert session.ask(egg, "occurs(E, _), argsOf(E, [g])") != []
+
+
+def test_domain_knowledge_is_answered(session: Session) -> None:
+    egg = timeline()
+    assert session.ask(egg, "instance_of(X, 'Egg'), has_part(X, P), value(X, mass, M)") == [
+        {"X": "egg1", "P": "shell1", "M": 0.06}
+    ]
+    assert session.ask(egg, "holds(on(egg1, T), 0.0)") == [{"T": "table1"}]
+    assert session.ask(egg, "holds(on(egg1, T), 0.5)") == []
+
+
+def test_a_session_whose_process_was_killed_answers_again(session: Session) -> None:
+    egg = timeline()
+    session.load(egg)
+    process = session._process  # pyright: ignore[reportPrivateUsage]
+    assert process is not None
+    os.kill(process.process_id, signal.SIGKILL)
+    with pytest.raises(GoalLimitError):
+        session.ask(egg, "holds(F, T)")
+    assert session.ask(egg, "holds(broken(X), _)") == [{"X": "egg1"}]
+
+
+def test_two_threads_ask_two_runs_at_once(session: Session) -> None:
+    wrong: list[object] = []
+
+    def ask(name: str) -> None:
+        run = timeline(name)
+        for _ in range(30):
+            if session.ask(run, "holds(broken(X), _)") != [{"X": name}]:
+                wrong.append(name)
+
+    threads = [threading.Thread(target=ask, args=(name,)) for name in ("egg1", "egg2")]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert wrong == []
+
+
+def test_without_swi_prolog_the_message_says_how_to_get_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", "/nonexistent")
+    with pytest.raises(MissingToolError, match="apt install swi-prolog-nox"):
+        Session().ask(timeline(), "true")
