@@ -108,7 +108,7 @@ def grips(observation: Observation) -> tuple[Grip, ...]:
         hands: list[Touch] = []
         for touch in several:
             holder = touch.a if touch.b == held else touch.b
-            if len(_bodies_of(observation, touch, holder)) > 1:
+            if _presses_from_two_bodies(observation, touch, holder):
                 found += _grip(observation, held, [touch])
             elif is_held_from_outside(observation, holder) or observation.has_role(holder, "Mounted"):
                 hands.append(touch)
@@ -117,10 +117,12 @@ def grips(observation: Observation) -> tuple[Grip, ...]:
     return tuple(found)
 
 
-def _bodies_of(observation: Observation, touch: Touch, unit: int) -> set[int]:
+def _presses_from_two_bodies(observation: Observation, touch: Touch, unit: int) -> bool:
+    if len(observation.bodies(unit)) < 2:
+        return False
     contacts = observation.log.contacts
     side = np.where(observation.unit[contacts.a[touch.rows]] == unit, contacts.a[touch.rows], contacts.b[touch.rows])
-    return set(np.unique(side).tolist())
+    return bool((side != side[0]).any())
 
 
 def _grip(observation: Observation, held: int, several: list[Touch]) -> list[Grip]:

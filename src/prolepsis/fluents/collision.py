@@ -11,7 +11,7 @@ from prolepsis.fluents.intervals import ticks_of
 from prolepsis.fluents.kinematics import centres, surface_speeds, velocities
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event
-from prolepsis.fluents.rigid import multiply
+from prolepsis.fluents.rigid import cross, multiply
 from prolepsis.fluents.touch import Touch, touches
 from prolepsis.things import FloatArray, IntArray
 from prolepsis.timeline import Fact
@@ -36,13 +36,10 @@ def colliding(observation: Observation) -> Iterator[Fact]:
     for touch in observation.of(touches):
         if is_stuff(observation, touch.a) or is_stuff(observation, touch.b):
             continue
-        speed = np.zeros(len(touch.tick))
-        row_tick = observation.log.contacts.tick[touch.rows]
-        place = np.searchsorted(touch.tick, row_tick)
         rows = closing[touch.rows]
-        np.maximum.at(speed, place, rows)
-        separating = np.zeros(len(touch.tick))
-        np.minimum.at(separating, place, rows)
+        if not (rows > MEETING_SPEED).any():
+            continue
+        speed, separating = np.maximum.reduceat(rows, touch.first), np.minimum.reduceat(rows, touch.first)
         for first, last in _impacts(touch, speed, separating, ticks_of(APART, observation.dt)):
             met = float(speed[first:last].max())
             impulse = float(touch.force[first:last].sum() * observation.dt)
@@ -93,7 +90,7 @@ def _point_velocity(observation: Observation, thing: IntArray, tick: IntArray, p
     change = multiply(later, now * np.array([1.0, -1.0, -1.0, -1.0]))
     spin = 2.0 * change[:, 1:] * np.sign(change[:, :1] + 1e-300) / observation.dt
     arm = point - observation.of(centres)[thing, tick]
-    return observation.of(velocities)[thing, tick] + np.cross(spin, arm)
+    return observation.of(velocities)[thing, tick] + cross(spin, arm)
 
 
 def _lighter_mass(observation: Observation, touch: Touch) -> float:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from prolepsis.fluents.intervals import ticks_of
@@ -63,17 +65,27 @@ def travel(observation: Observation, ticks_before: int, ticks_after: int) -> Flo
     Returns:
         Mean speed over that time [m/s], shape (n, T).
     """
-    count = observation.tick_count
-    first = np.maximum(np.arange(count) - ticks_before, 0)
-    last = np.minimum(np.arange(count) + ticks_after, count - 1)
-    short = last == first
-    first[short] = np.maximum(first[short] - 1, 0)
-    place = observation.of(centres)
+    count, span = observation.tick_count, ticks_before + ticks_after
+    found = np.zeros((len(observation.log.things), count))
+    if count > span:
+        found[:, ticks_before : count - ticks_after] = _speeds(observation, slice(0, count - span), slice(span, count))
+    now = np.arange(count)
+    edge = np.flatnonzero((now < ticks_before) | (now >= count - ticks_after))
+    if count > 1 and len(edge):
+        first, last = np.maximum(edge - ticks_before, 0), np.minimum(edge + ticks_after, count - 1)
+        first[first == last] = count - 2
+        found[:, edge] = _speeds(observation, first, last)
+    return found
+
+
+def _speeds(observation: Observation, first: Any, last: Any) -> FloatArray:
+    place, orientation = observation.of(centres), observation.of(orientations)
     way = place[:, last] - place[:, first]
     shift = np.sqrt(np.einsum("ntc,ntc->nt", way, way))
-    orientation = observation.of(orientations)
     spin = turn(orientation[:, first], orientation[:, last]) * observation.of(radii)[:, None]
-    return np.maximum(shift, spin) / (np.maximum(last - first, 1) * observation.dt)
+    np.maximum(shift, spin, out=shift)
+    ticks = np.arange(observation.tick_count)
+    return shift / ((ticks[last] - ticks[first]) * observation.dt)
 
 
 def orientations(observation: Observation) -> FloatArray:

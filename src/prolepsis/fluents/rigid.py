@@ -15,8 +15,16 @@ def rotate(quaternion: FloatArray, vector: FloatArray) -> FloatArray:
         vector: Shape (..., 3).
     """
     w, axis = quaternion[..., :1], quaternion[..., 1:]
-    twice = 2.0 * np.cross(axis, vector)
-    return vector + w * twice + np.cross(axis, twice)
+    twice = 2.0 * cross(axis, vector)
+    return vector + w * twice + cross(axis, twice)
+
+
+def cross(first: FloatArray, second: FloatArray) -> FloatArray:
+    """Return the cross product, shape (..., 3), several times faster than numpy's general one."""
+    found = np.empty(np.broadcast_shapes(first.shape, second.shape))
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        found[..., i] = first[..., j] * second[..., k] - first[..., k] * second[..., j]
+    return found
 
 
 def rotate_back(quaternion: FloatArray, vector: FloatArray) -> FloatArray:
@@ -40,8 +48,7 @@ def multiply(first: FloatArray, second: FloatArray) -> FloatArray:
 
 
 def turn(before: FloatArray, after: FloatArray) -> FloatArray:
-    """Return the angle between unit quaternions [rad], shape (...,); exact for small angles."""
-    same, opposite = np.square(after - before).sum(axis=-1), np.square(after + before).sum(axis=-1)
+    """Return the angle between unit quaternions [rad], shape (...): exact when small, a tenth less at 180 degrees."""
     # The chord between two unit quaternions is 2 sin(angle / 4); q and -q are the same rotation.
-    chord = np.sqrt(np.minimum(same, opposite))
-    return 4.0 * np.arcsin(np.minimum(chord / 2.0, 1.0))
+    product = np.abs(np.einsum("...q,...q->...", before, after))
+    return 2.0 * np.sqrt(np.maximum(2.0 - 2.0 * product, 0.0))

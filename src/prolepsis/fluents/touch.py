@@ -39,7 +39,9 @@ class Touch:
     lifts_b: FloatArray
     """Upward force of a on b through all contacts [N], shape (R,)."""
     rows: IntArray
-    """Rows of the log's contacts that these come from."""
+    """Rows of the log's contacts that these come from, tick by tick."""
+    first: IntArray
+    """Where in ``rows`` each tick begins, shape (R,)."""
 
     def mask(self, tick_count: int, dt: float) -> BoolArray:
         """Return whether there is contact at each tick, shape (T,)."""
@@ -76,7 +78,7 @@ def touches(observation: Observation) -> tuple[Touch, ...]:
     order = np.argsort(number, kind="stable")
     order = order[(first != second)[order]]
     number, tick = number[order], contacts.tick[order]
-    begins = np.flatnonzero((np.diff(number.astype(np.int64), prepend=-1) != 0) | (np.diff(tick, prepend=-1) != 0))
+    begins = np.concatenate(([0], np.flatnonzero((number[1:] != number[:-1]) | (tick[1:] != tick[:-1])) + 1))
     sign = np.where(swapped, -1.0, 1.0)
     upward = (contacts.force @ observation.up) * sign
     slope = (contacts.normal @ observation.up) * sign
@@ -104,6 +106,7 @@ def touches(observation: Observation) -> tuple[Touch, ...]:
             bears_a=bears_a[low:high],
             lifts_b=lifts[low:high],
             rows=order[ends[low] : ends[high]],
+            first=begins[low:high] - ends[low],
         )
         for code, low, high in zip(codes.tolist(), bounds[:-1].tolist(), bounds[1:].tolist(), strict=True)
     )

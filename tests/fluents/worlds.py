@@ -1,0 +1,103 @@
+"""Ten-line worlds, stepped by plain MuJoCo and read as foreign logs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from prolepsis.fluents import recognize
+from prolepsis.log import Log
+from prolepsis.things import FloatArray, Thing
+from prolepsis.timeline import Timeline
+
+Control = Callable[[Any, Any], None]
+FLOOR = '<geom name="floor" type="plane" size="2 2 .1"/>'
+
+
+def world(body: str, extra: str = "") -> str:
+    """Return the MJCF of a world with these bodies, a smooth contact model and ``extra`` after the worldbody."""
+    return (
+        '<mujoco><option cone="elliptic" integrator="implicitfast"/>'
+        '<default><geom solref=".01 1" solimp="0 .95 .002"/></default>'
+        f"<worldbody>{body}</worldbody>{extra}</mujoco>"
+    )
+
+
+def box(name: str, where: str, size: str = ".05 .05 .05", mass: float = 1.0, more: str = "", turn: str = "") -> str:
+    """Return a free box: position, half extents [m], mass [kg]; ``more`` for its geom, ``turn`` its Euler angles."""
+    return free(name, where, f'<geom type="box" size="{size}" mass="{mass}" {more}/>', turn)
+
+
+def ball(name: str, where: str, radius: float = 0.03, mass: float = 0.2, more: str = "") -> str:
+    """Return a free ball."""
+    return free(name, where, f'<geom type="sphere" size="{radius}" mass="{mass}" {more}/>')
+
+
+def free(name: str, where: str, geoms: str, turn: str = "") -> str:
+    """Return a free body."""
+    euler = f' euler="{turn}"' if turn else ""
+    return f'<body name="{name}" pos="{where}"{euler}><freejoint/>{geoms}</body>'
+
+
+def cup_geoms(
+    radius: float = 0.05, height: float = 0.08, wall: float = 0.004, bottom: bool = True, count: int = 16
+) -> str:
+    """Return the walls and the bottom of a cup that stands on the origin of its body."""
+    geoms: list[str] = []
+    for k in range(count):
+        angle = 2 * np.pi * k / count
+        x, y = radius * np.cos(angle), radius * np.sin(angle)
+        half = np.pi * radius / count * 1.1
+        geoms.append(
+            f'<geom type="box" size="{wall / 2} {half} {height / 2}" pos="{x} {y} {height / 2}" '
+            f'euler="0 0 {np.degrees(angle)}" mass=".02"/>'
+        )
+    if bottom:
+        geoms.append(f'<geom type="cylinder" size="{radius} {wall / 2}" pos="0 0 {wall / 2}" mass=".05"/>')
+    return "".join(geoms)
+
+
+def roll(xml: str, seconds: float, control: Control | None = None, dt: float = 0.001) -> tuple[Any, FloatArray]:
+    """Return a model and the integration states of a rollout, one a step."""
+    model = mujoco.MjModel.from_xml_string(xml)
+    model.opt.timestep = dt
+    data = mujoco.MjData(model)
+    signature = mujoco.mjtState.mjSTATE_INTEGRATION
+    states = np.zeros((round(seconds / dt), mujoco.mj_stateSize(model, signature)))
+    for state in states:
+        if control is not None:
+            control(model, data)
+        mujoco.mj_getState(model, data, state, signature)
+        mujoco.mj_step(model, data)
+    return model, states
+
+
+def watch(
+    xml: str, seconds: float, control: Control | None = None, scene: Mapping[str, Thing] | None = None
+) -> Timeline:
+    """Return the timeline of a rollout."""
+    model, states = roll(xml, seconds, control)
+    return recognize(Log.from_mujoco(model, states, 0.001, scene))
+
+
+def ever(timeline: Timeline) -> set[str]:
+    """Return the terms of all facts."""
+    return {str(fact.term) for fact in timeline.facts}
+
+
+def times(timeline: Timeline, term: str) -> list[tuple[float, float]]:
+    """Return when a fact holds."""
+    return [(fact.start, fact.end) for fact in timeline.facts if str(fact.term) == term]
+
+
+def at_end(timeline: Timeline) -> set[str]:
+    """Return the terms of the facts that hold when the log ends."""
+    return {str(fact.term) for fact in timeline.facts if fact.end == timeline.duration}
+
+
+def of_type(timeline: Timeline, *types: str) -> set[str]:
+    """Return the terms of all facts of some types."""
+    return {str(fact.term) for fact in timeline.facts if fact.type in types}
