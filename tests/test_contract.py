@@ -22,7 +22,7 @@ def timelines(case: dict[str, Any]) -> dict[str, Timeline]:
     """Return the timelines of a case by the name of their run."""
     facts: dict[str, list[Fact]] = {"run1": []}
     for kind, type_, args, start, end, *more in case["facts"]:
-        evidence = more[0] if more else {}
+        evidence: dict[str, Any] = more[0] if more else {}
         run = more[1] if len(more) > 1 else "run1"
         fact = Fact(kind=kind, type=type_, args=tuple(args), start=start, end=end, evidence=evidence)
         facts.setdefault(run, []).append(fact)

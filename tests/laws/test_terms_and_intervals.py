@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -54,7 +56,7 @@ def test_what_is_not_a_term_is_refused_with_its_position(text: str, message: str
 ENDS = st.tuples(st.integers(0, 6), st.integers(0, 6)).filter(lambda e: e[0] < e[1])
 INTERVALS = ENDS.map(lambda e: Interval(start=float(e[0]), end=float(e[1])))
 
-DEFINITIONS = {
+DEFINITIONS: dict[str, Callable[[Interval, Interval], bool]] = {
     "before": lambda i, j: i.end < j.start,
     "after": lambda i, j: j.end < i.start,
     "meets": lambda i, j: i.end == j.start,
