@@ -105,7 +105,7 @@ class PrologProcess:
             connection = _Connection(self._server)
         connection.deadline = time.monotonic() + seconds
         try:
-            result = connection.query(goal)
+            result = cast(Any, connection.query(goal))
         except (OSError, json.JSONDecodeError) as error:
             raise ProcessLost("gone") from error
         self._idle.append(connection)

@@ -109,7 +109,7 @@ class Session:
                 self._loaded.clear()
                 self._process = PrologProcess()
                 for file in self._chronicles:
-                    self._process.call(f"chronicles:load_files({format_atom(str(file))}, []), Reply = ok", LOAD_LIMIT)
+                    self._process.call(f"load_files(chronicles:{format_atom(str(file))}, []), Reply = ok", LOAD_LIMIT)
             return self._process
 
     def _lose(self, process: PrologProcess) -> None:
