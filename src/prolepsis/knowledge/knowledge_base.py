@@ -129,7 +129,11 @@ class KnowledgeBase:
     def quantities(self, name: str) -> dict[str, Known]:
         """Return all that is known of ``name``, by property."""
         self._require(name)
-        found = {p: self._find(name, p) for p, e in self.vocabulary.properties.items() if e.kind != "relation" or p == "shape"}
+        found = {
+            p: self._find(name, p)
+            for p, e in self.vocabulary.properties.items()
+            if e.kind != "relation" or p == "shape"
+        }
         return {p: known for p, known in found.items() if known is not None}
 
     def with_values(self, values: Mapping[str, float | str]) -> KnowledgeBase:
@@ -224,9 +228,7 @@ class KnowledgeBase:
         Raises:
             KnowledgeError: If two classes, neither a subclass of the other, give different values.
         """
-        candidates = {
-            c: d for c in classes for d in self.vocabulary.classes[c].defaults if d.property == property_name
-        }
+        candidates = {c: d for c in classes for d in self.vocabulary.classes[c].defaults if d.property == property_name}
         best = [c for c in candidates if not any(c in self.types.superclasses(o) for o in candidates if o != c)]
         if not best:
             return None

@@ -1,31 +1,273 @@
-"""First version: told classes."""
+"""OWL DL reasoning: is the knowledge base consistent, and which classes does each individual belong to?
+
+This is the one place that knows pyhermit. Importing it takes longer than all the rest of loading a knowledge
+base, so an answer is kept in the user's cache folder under the hash of the axioms and read back from there.
+"""
+
 from __future__ import annotations
+
+import hashlib
+import json
+import os
+import re
+import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING, cast
+
+from prolepsis.errors import InconsistentError
+from prolepsis.knowledge.axioms import Axiom, assertions, terminology
+from prolepsis.knowledge.chaining import chain
+from prolepsis.knowledge.conflict import smallest_conflict
 from prolepsis.knowledge.situation import Situation
 from prolepsis.knowledge.turtle import Document
 from prolepsis.knowledge.vocabulary import Vocabulary
 
+if TYPE_CHECKING:
+    from pyhermit import Reasoner
+
+CACHE_VARIABLE = "PROLEPSIS_CACHE"
+"""Environment variable: folder of the kept answers, or empty to keep none."""
+
+TIME_LIMIT = 3.0
+"""After this many seconds without a contradiction, none is assumed [s]."""
+
+INCONSISTENT = "inconsistent"
+EMPTY_CLASS = "empty class"
+_TOKEN = re.compile(r"<[^<>]*>")
+
+
+@dataclass(frozen=True, slots=True)
+class Probe:
+    """A question: does the individual belong to the class?"""
+
+    individual: str
+    """IRI."""
+    class_iri: str
+    """IRI."""
+
+
+def denials(probes: tuple[Probe, ...]) -> tuple[Axiom, ...]:
+    """Return axioms that deny all probes: one for each individual, since pyhermit's time goes with their number."""
+    classes: dict[str, list[str]] = {}
+    for probe in probes:
+        classes.setdefault(probe.individual, []).append(f"<{probe.class_iri}>")
+    return tuple(
+        Axiom(f"ClassAssertion(ObjectComplementOf({c[0] if len(c) == 1 else f'ObjectUnionOf({chr(32).join(c)})'}) <{i}>)")
+        for i, c in classes.items()
+    )
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Types:
-    """Inferred classes."""
+    """What the reasoner found out."""
+
     classes: Mapping[str, tuple[str, ...]]
+    """Individual to its named classes, sorted."""
     parents: Mapping[str, tuple[str, ...]]
-    """Class to all its named superclasses."""
+    """Class to its named proper superclasses, sorted."""
 
     def superclasses(self, name: str) -> tuple[str, ...]:
-        """Return all named superclasses."""
+        """Return the named classes that are more general than ``name``."""
         return self.parents.get(name, ())
 
     def kind(self, classes: tuple[str, ...], vocabulary: Vocabulary) -> str:
-        """Return the most specific class that is not defined, or else the most specific one."""
+        """Return the most specific of ``classes`` that is not defined, or else the most specific one."""
         plain = [c for c in classes if not vocabulary.classes[c].defined] or list(classes)
-        lowest = [c for c in plain if not any(c in self.superclasses(o) for o in plain if o != c)]
+        lowest = [c for c in plain if not any(c in self.superclasses(o) for o in plain)]
         return sorted(lowest or plain)[0]
 
+
 def infer_types(documents: tuple[Document, ...], vocabulary: Vocabulary, situation: Situation, *, check: bool) -> Types:
-    """Told classes only."""
-    return Types(
-        classes={n: vocabulary.told_classes(t) for n, t in situation.classes.items()},
-        parents={c: tuple(x for x in vocabulary.told_classes((c,)) if x != c) for c in vocabulary.classes},
+    """Return the inferred classes of every individual, and the named superclasses of every class.
+
+    Args:
+        documents: The Turtle files.
+        vocabulary: Their classes and properties.
+        situation: Their individuals.
+        check: Whether to refuse contradictions; if not, an inconsistent knowledge base has its told classes.
+
+    Raises:
+        InconsistentError: If the axioms contradict each other, or a class can have no individual.
+    """
+    terms, cells = terminology(documents, vocabulary)
+    facts = assertions(situation, vocabulary, cells, terms)
+    told = {name: vocabulary.told_classes(classes) for name, classes in situation.classes.items()}
+    probes = tuple(
+        Probe(situation.iris[name], vocabulary.classes[class_name].iri)
+        for name in representatives(situation, facts)
+        for class_name in vocabulary.classes
+        if class_name not in told[name]
     )
+    witnesses = tuple(
+        Axiom(f"ClassAssertion(<{entry.iri}> <{entry.iri}/witness>)", f"there can be a {name}", "asked")
+        for name, entry in vocabulary.classes.items()
+    )
+    entailed = kept_answer(terms, about(facts, situation, representatives(situation, facts)), witnesses, probes)
+    if isinstance(entailed, str):
+        if check:
+            axioms = terms + (facts if entailed == INCONSISTENT else witnesses)
+            raise InconsistentError(f"the knowledge base contradicts itself: {explain(axioms)}")
+        entailed = ()
+    inferred = {(probe.individual, probe.class_iri) for probe in entailed}
+    alike = representatives(situation, facts)
+    classes: dict[str, tuple[str, ...]] = {}
+    for name in situation.classes:
+        iri = situation.iris[next(r for r, members in alike.items() if name in members)]
+        found = {c for c, entry in vocabulary.classes.items() if (iri, entry.iri) in inferred}
+        classes[name] = tuple(sorted({*told[name], *found}))
+    parents = {c: tuple(p for p in vocabulary.told_classes((c,)) if p != c) for c in vocabulary.classes}
+    return Types(classes=classes, parents=parents)
+
+
+def representatives(situation: Situation, facts: tuple[Axiom, ...]) -> Mapping[str, tuple[str, ...]]:
+    """Return groups of individuals of which exactly the same is said, but nothing that relates them to others.
+
+    The reasoner is asked about the first of each group only.
+    """
+    names = {f"<{iri}>": name for name, iri in situation.iris.items()}
+    said: dict[str, list[str]] = {name: [] for name in situation.classes}
+    related: set[str] = set()
+    for axiom in facts:
+        if axiom.text.startswith("DifferentIndividuals"):
+            continue
+        mentioned = [names[token] for token in _TOKEN.findall(axiom.text) if token in names]
+        if len(mentioned) > 1:
+            related.update(mentioned)
+        for name in mentioned:
+            said[name].append(axiom.text.replace(f"<{situation.iris[name]}>", "<it>"))
+    groups: dict[str, list[str]] = {}
+    for name in situation.classes:
+        key = name if name in related else "\n".join(sorted(said[name]))
+        groups.setdefault(key, []).append(name)
+    return {members[0]: tuple(members) for members in groups.values()}
+
+
+def ontology_text(axioms: tuple[Axiom, ...]) -> str:
+    """Return the axioms as one ontology in functional syntax."""
+    return "Ontology(\n" + "\n".join(axiom.text for axiom in axioms) + "\n)\n"
+
+
+def about(facts: tuple[Axiom, ...], situation: Situation, alike: Mapping[str, tuple[str, ...]]) -> tuple[Axiom, ...]:
+    """Return the facts without the individuals that another one stands for."""
+    left_out = {f"<{situation.iris[name]}>" for members in alike.values() for name in members[1:]}
+    kept = [a for a in facts if not a.text.startswith("DifferentIndividuals") and not left_out & set(_TOKEN.findall(a.text))]
+    names = [f"<{situation.iris[name]}>" for name in alike]
+    different = [Axiom(f"DifferentIndividuals({' '.join(names)})")] if len(names) > 1 else []
+    return (*kept, *different)
+
+
+def kept_answer(
+    terms: tuple[Axiom, ...], facts: tuple[Axiom, ...], witnesses: tuple[Axiom, ...], probes: tuple[Probe, ...]
+) -> tuple[Probe, ...] | str:
+    """Return the probes that follow from the axioms, or ``INCONSISTENT`` or ``EMPTY_CLASS``.
+
+    The answer is read from the cache if it is there.
+    """
+    asked = "\n".join(a.text for a in (*terms, *facts, *witnesses, *denials(probes)))
+    key = hashlib.sha256(f"1 pyhermit {version('pyhermit')}\n{asked}".encode()).hexdigest()
+    kept = _read_answer(key)
+    if kept is not None:
+        return kept if isinstance(kept, str) else tuple(probes[i] for i in kept)
+    answer = entailed_probes(terms, facts, witnesses, probes)
+    _keep_answer(key, answer if isinstance(answer, str) else [probes.index(probe) for probe in answer])
+    return answer
+
+
+def entailed_probes(
+    terms: tuple[Axiom, ...], facts: tuple[Axiom, ...], witnesses: tuple[Axiom, ...], probes: tuple[Probe, ...]
+) -> tuple[Probe, ...] | str:
+    """Return the probes that follow, or ``INCONSISTENT`` or ``EMPTY_CLASS``.
+
+    Forward chaining finds what follows step by step. One consistency check then certifies that nothing else
+    does: all other probes can be denied together, and every class can have an individual. If it fails, the
+    reasoner looks for what else follows by denying halves. (pyhermit 0.2.3 answers such a check in
+    milliseconds, but its own realization does not end on this ontology; a test pins both.)
+    """
+    axioms = terms + facts
+    found = chain(axioms)
+    follows = tuple(probe for probe in probes if f"<{probe.class_iri}>" in found.get(f"<{probe.individual}>", ()))
+    others = tuple(probe for probe in probes if probe not in follows)
+    if not is_consistent((*terms, *witnesses)):
+        return EMPTY_CLASS
+    if is_consistent((*axioms, *denials(others))):
+        return follows
+    if not is_consistent(axioms):
+        return INCONSISTENT
+
+    def search(part: tuple[Probe, ...]) -> tuple[Probe, ...]:
+        if not part or is_consistent((*axioms, *denials(part))):
+            return ()
+        if len(part) == 1:
+            return part
+        half = len(part) // 2
+        return search(part[:half]) + search(part[half:])
+
+    return follows + search(others)
+
+
+def _open(text: str) -> Reasoner:
+    """Return a reasoner over an ontology in functional syntax."""
+    from pyhermit import Reasoner, ReasonerConfig
+    from pyowl_core import DocumentFormat, LoadOptions, load_snapshot
+
+    return Reasoner(load_snapshot(text.encode(), options=LoadOptions(format=DocumentFormat.FUNCTIONAL)), config=ReasonerConfig(timeout=TIME_LIMIT))
+
+
+def is_consistent(axioms: tuple[Axiom, ...]) -> bool:
+    """Return whether the axioms have a model."""
+    from pyhermit import ReasonerInterruptedError, ReasonerTimeoutError
+
+    with _open(ontology_text(axioms)) as reasoner:
+        try:
+            return reasoner.is_consistent()
+        except (ReasonerTimeoutError, ReasonerInterruptedError):
+            return True
+
+
+def explain(axioms: tuple[Axiom, ...]) -> str:
+    """Return the few axioms that cannot hold together, as a person would say them, with the files they come from."""
+    background = tuple(a for a in axioms if not a.where)
+    conflict = smallest_conflict(background, tuple(a for a in axioms if a.where), is_consistent)
+    if not conflict:
+        return "two names are given to one thing"
+    return "; ".join(f"{axiom.reading} ({axiom.where})" for axiom in conflict)
+
+
+def _cache_folder() -> Path | None:
+    chosen = os.environ.get(CACHE_VARIABLE)
+    if chosen is not None:
+        return Path(chosen) if chosen else None
+    base = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
+    return Path(base) / "prolepsis" / "types"
+
+
+def _read_answer(key: str) -> list[int] | str | None:
+    """Return the kept answer; one that is missing or altered counts as none."""
+    folder = _cache_folder()
+    if folder is None:
+        return None
+    try:
+        seal, body = (folder / f"{key}.json").read_text(encoding="utf-8").split("\n", 1)
+        if hashlib.sha256(f"{key}{body}".encode()).hexdigest() != seal:
+            return None
+        return cast("list[int] | str", json.loads(body))
+    except (OSError, ValueError):
+        return None
+
+
+def _keep_answer(key: str, answer: list[int] | str) -> None:
+    folder = _cache_folder()
+    if folder is None:
+        return
+    body = json.dumps(answer)
+    seal = hashlib.sha256(f"{key}{body}".encode()).hexdigest()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.NamedTemporaryFile("w", dir=folder, suffix=".part", delete=False) as file:
+            file.write(f"{seal}\n{body}")
+        os.replace(file.name, folder / f"{key}.json")
+    except OSError:
+        return  # A cache that cannot be written only costs time.

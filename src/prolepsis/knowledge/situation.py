@@ -34,6 +34,8 @@ class Situation:
 
     classes: Mapping[str, tuple[str, ...]]
     """Told classes of each individual, sorted by name."""
+    iris: Mapping[str, str]
+    """Full IRI of each individual."""
     statements: tuple[Statement, ...]
     """Values and relations, in the order of files and names."""
     places: Mapping[str, str]
@@ -64,8 +66,14 @@ def read_situation(documents: tuple[Document, ...], vocabulary: Vocabulary) -> S
         for iri in _individuals(document, vocabulary):
             name = local_name(iri)
             if iris.setdefault(name, iri) != iri:
-                raise KnowledgeError(f"{document.where(iri)}: two individuals are called {name}: <{iris[name]}> and <{iri}>")
-            told = [local_name(t) for t in document.graph.objects(iri, RDF.type) if isinstance(t, URIRef) and t != OWL.NamedIndividual]
+                raise KnowledgeError(
+                    f"{document.where(iri)}: two individuals are called {name}: <{iris[name]}> and <{iri}>"
+                )
+            told = [
+                local_name(t)
+                for t in document.graph.objects(iri, RDF.type)
+                if isinstance(t, URIRef) and t != OWL.NamedIndividual
+            ]
             if told or name not in classes:
                 classes[name] = tuple(sorted({*classes.get(name, ()), *told}))
                 places.setdefault(name, document.where(iri))
@@ -77,6 +85,7 @@ def read_situation(documents: tuple[Document, ...], vocabulary: Vocabulary) -> S
     _refuse_second_values(statements, vocabulary)
     situation = Situation(
         classes=dict(sorted(classes.items())),
+        iris={name: str(iri) for name, iri in iris.items()},
         statements=tuple(statements),
         places=places,
         wholes=_wholes(statements),
@@ -157,6 +166,7 @@ def _wholes(statements: list[Statement]) -> dict[str, str]:
 def _with_default_parts(situation: Situation, vocabulary: Vocabulary) -> Situation:
     """Return the situation with the parts that its classes give where the files say nothing else."""
     classes, places, wholes = dict(situation.classes), dict(situation.places), dict(situation.wholes)
+    iris = dict(situation.iris)
     statements = list(situation.statements)
     for whole, told in situation.classes.items():
         stated = {c for part in situation.parts.get(whole, ()) for c in vocabulary.told_classes(classes[part])}
@@ -173,10 +183,17 @@ def _with_default_parts(situation: Situation, vocabulary: Vocabulary) -> Situati
                 classes[part_name] = (part.kind,)
                 places[part_name] = f"default part of {name}: {part.source}"
                 wholes[part_name] = whole
+                iris[part_name] = NAMESPACE + part_name
                 statements.append(
                     Statement(subject=whole, property="hasPart", value=part_name, where=places[part_name], derived=True)
                 )
-    return Situation(classes=dict(sorted(classes.items())), statements=tuple(statements), places=places, wholes=wholes)
+    return Situation(
+        classes=dict(sorted(classes.items())),
+        iris=iris,
+        statements=tuple(statements),
+        places=places,
+        wholes=wholes,
+    )
 
 
 def part_name_of(whole: str, kind: str) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from rdflib import OWL, RDF, RDFS, XSD, BNode, Literal, Namespace, URIRef
+from rdflib.collection import Collection
 from rdflib.term import Node
 
 from prolepsis.errors import InputError, KnowledgeError
@@ -31,6 +32,8 @@ class Property:
 
     name: str
     """``mass``."""
+    iri: str
+    """Full IRI."""
     kind: str
     """``quantity`` (a number with a unit), ``truth`` (true or false), ``text``, or ``relation`` (to an individual)."""
     unit: str = ""
@@ -187,10 +190,13 @@ def _property(document: Document, iri: URIRef) -> Property:
     if isinstance(unit_node, URIRef):
         symbol = qudt_symbol(local_name(unit_node))
         if symbol is None:
-            raise KnowledgeError(f"{document.where(iri)}: property {local_name(iri)} has the unknown unit <{unit_node}>")
+            raise KnowledgeError(
+                f"{document.where(iri)}: property {local_name(iri)} has the unknown unit <{unit_node}>"
+            )
         unit, kind = symbol, "quantity"
     return Property(
         name=local_name(iri),
+        iri=str(iri),
         kind=kind,
         unit=unit,
         above=_number(document, iri, PRO.above),
@@ -206,6 +212,9 @@ def _property(document: Document, iri: URIRef) -> Property:
 def _class(document: Document, iri: URIRef, properties: Mapping[str, Property]) -> ClassEntry:
     graph = document.graph
     parents = [p for p in graph.objects(iri, RDFS.subClassOf) if isinstance(p, URIRef)]
+    for meaning in graph.objects(iri, OWL.equivalentClass):
+        for members in graph.objects(meaning, OWL.intersectionOf):
+            parents += [member for member in Collection(graph, members) if isinstance(member, URIRef)]
     others = [e for e in graph.objects(iri, OWL.equivalentClass) if isinstance(e, URIRef)]
     others += [m for m in graph.objects(iri, PRO.alignedWith) if isinstance(m, URIRef)]
     own = [p for p in parents if not _foreign(p)]
