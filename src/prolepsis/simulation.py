@@ -39,6 +39,7 @@ def simulate(
     duration: float | None = None,
     seed: int = 1,
     draw: bool = False,
+    max_step: float = MAX_STEP,
     progress: Callable[[float], None] | None = None,
 ) -> Log:
     """Run a program in a world and return the log.
@@ -49,6 +50,7 @@ def simulate(
         duration: Simulated time [s]; the program's length plus settling when None.
         seed: Seed of everything that is drawn.
         draw: Draw uncertain strengths from their distributions instead of taking the means.
+        max_step: Longest substep [s]; phenomena ask for shorter ones.
         progress: Called now and then with the simulated time [s].
 
     Raises:
@@ -108,6 +110,7 @@ def simulate(
                 channels[f"{name}.{column}"].append(value)
 
         step = min((phenomenon.substep(state) for phenomenon in phenomena), default=MAX_STEP)
+        step = min(step, max_step)
         count = math.ceil(TICK / step - 1e-9)
         state.model.opt.timestep = TICK / count
         for _ in range(count):

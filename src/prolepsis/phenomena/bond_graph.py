@@ -1,8 +1,10 @@
 """A brittle shell as a graph of pieces joined by elastic bonds: which bonds does a set of contact forces overload?
 
 The forces on the pieces, less the inertial forces of the free body (inertial relief), stretch and bend the
-bonds. One matrix, computed once for a graph, turns forces into bond loads. A bond whose greatest tensile
-stress exceeds its strength gives way.
+bonds. One matrix, computed once for a graph, turns forces into bond loads. A bond gives way in two ways that
+add up: by membrane stress, which in a closed shell goes with the stress peak around a contact that the
+pieces are too coarse to resolve, so that its strength is a calibrated one; and by bending, which matters in
+open shells and shards and which the pieces do resolve, so that its strength is the material's.
 
 Source: frame elements (any text on the finite element method); Rankine's criterion for brittle materials.
 """
@@ -14,6 +16,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from prolepsis.things import BoolArray, FloatArray, IntArray
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class BondGraph:
@@ -32,7 +35,9 @@ class BondGraph:
     widths: FloatArray
     """Lengths of the common edges [m], shape (m,)."""
     strengths: FloatArray
-    """Tensile stress that each bond bears [Pa], shape (m,)."""
+    """Membrane stress that each bond bears [Pa], shape (m,)."""
+    bending_strength: float
+    """Bending stress that the material bears [Pa]."""
     weakened: BoolArray
     """Whether a bond lies at the tip of a crack and has lost strength for it, shape (m,)."""
     thickness: float
@@ -72,32 +77,32 @@ class BondGraph:
         wrenches[:, :, 5, 0], wrenches[:, :, 5, 1] = -y, x
         return wrenches.reshape(len(points), 6 * len(self.nodes), 3)
 
-    def stresses(self, points: FloatArray, forces: FloatArray) -> FloatArray:
-        """Return the greatest tensile stress in each bond under contact forces.
+    def loads(self, points: FloatArray, forces: FloatArray) -> FloatArray:
+        """Return how near each bond is to giving way under contact forces.
 
         Args:
             points: Points of attack in the common frame [m], shape (c, 3).
             forces: Forces in the same frame [N], shape (c, 3).
 
         Returns:
-            Stress [Pa], shape (m,).
+            Load over strength [1], shape (m,); a bond gives way at 1.
         """
         wrench = np.einsum("cij,cj->i", self.wrenches_per_force(points), forces)
-        return self.tensile((self.response @ wrench).reshape(-1, 6))
+        membrane, bending = self.stresses((self.response @ wrench).reshape(-1, 6))
+        return membrane / self.strengths + bending / self.bending_strength
 
-    def tensile(self, components: FloatArray) -> FloatArray:
-        """Return the greatest tensile stress of each bond [Pa], shape (..., m), from its six force components.
+    def stresses(self, components: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the greatest tensile membrane stress and the bending stress of each bond [Pa], each (..., m).
 
         Args:
             components: Axial, two shear forces [N], twist, bending, in-plane bending [N m], shape (..., m, 6).
         """
         area = self.widths * self.thickness
-        axial = components[..., 0] / area
         shear = np.hypot(components[..., 1], components[..., 2]) / area
-        bending = 6 * np.abs(components[..., 4]) / (self.widths * self.thickness**2)
         in_plane = 6 * np.abs(components[..., 5]) / (self.thickness * self.widths**2)
-        stress = axial + bending + in_plane
-        return stress / 2 + np.sqrt((stress / 2) ** 2 + shear**2)
+        normal = components[..., 0] / area + in_plane
+        bending = 6 * np.abs(components[..., 4]) / (self.widths * self.thickness**2)
+        return normal / 2 + np.sqrt((normal / 2) ** 2 + shear**2), bending
 
     def without(self, broken: BoolArray, weakening: float) -> BondGraph:
         """Return the graph without the ``broken`` bonds, shape (m,), its crack tips weakened.

@@ -96,18 +96,19 @@ class Breaking:
         a, b, c = thing.shape.geoms[0].size
         self.semi_axes = np.array([a, b, c])
         quantities = shell.quantities
-        unit = calibrated_graph(
-            (a, b, c),
-            PIECE_COUNT,
-            quantities["shellThickness"],
-            quantities["youngsModulus"],
-            quantities["poissonRatio"],
-            thing.mass,
-        )
         self.weakening = quantities["crackTipWeakening"]
         self.plate_stiffness = quantities["plateStiffness"]
         self.pole_ratio = quantities["poleStiffnessRatio"]
-        graph = _scaled(unit, breaking_force)
+        graph = calibrated_graph(
+            (a, b, c),
+            PIECE_COUNT,
+            thickness=quantities["shellThickness"],
+            youngs_modulus=quantities["youngsModulus"],
+            poisson_ratio=quantities["poissonRatio"],
+            fracture_strain=quantities["fractureStrain"],
+            mass=thing.mass,
+            breaking_force=breaking_force,
+        )
         self.fragments = [Fragment(body=thing.name, graph=graph, origin=np.zeros(3), calm=_calm(graph))]
         self.intact = True
         self.load = 0.0
@@ -157,9 +158,7 @@ class Breaking:
         data, body_of = state.data, self._body_of
         force = data.efc_force
         totals = dict.fromkeys(self._watched, 0.0)
-        for (first, second), address in zip(
-            data.contact.geom.tolist(), data.contact.efc_address.tolist(), strict=True
-        ):
+        for (first, second), address in zip(data.contact.geom.tolist(), data.contact.efc_address.tolist(), strict=True):
             if address >= 0:
                 for geom in (first, second):
                     if body_of[geom] in totals:
@@ -187,7 +186,7 @@ class Breaking:
         detached: list[Detachment] = []
         graph = fragment.graph
         while len(graph.bonds):
-            ratio = graph.stresses(local_points, local_forces) / graph.strengths
+            ratio = graph.loads(local_points, local_forces)
             worst = float(ratio.max())
             self.load = max(self.load, worst)
             fragment.checked = (local_points, local_forces, worst)
@@ -224,10 +223,9 @@ class Breaking:
             state.split(fragment.body, groups, self.blobs if self.intact else [])
             self.intact = False
             for part, group in zip(parts, groups, strict=True):
-                whole = part.assembled() if len(part.bonds) else part
                 lead = state.world.scene.things[group[0]].name
-                calm = _calm(whole) if len(whole.bonds) else math.inf
-                new.append(Fragment(body=lead, graph=whole, origin=part.centres[0].copy(), calm=calm))
+                whole = part.assembled() if len(part.bonds) else part
+                new.append(Fragment(body=lead, graph=whole, origin=part.centres[0].copy(), calm=_calm(whole)))
         self.fragments = new
 
     def _near(self, state: State) -> bool:
@@ -292,10 +290,6 @@ def direct_solref(stiffness: float, inverse_mass: float) -> tuple[float, float]:
     return (-scaled, -2 * DAMPING_RATIO * math.sqrt(scaled))
 
 
-def _scaled(graph: BondGraph, factor: float) -> BondGraph:
-    return replace(graph, strengths=graph.strengths * factor)
-
-
 def _calm(graph: BondGraph) -> float:
     """Return a contact force below which no bond can break, wherever it acts: the screen before the full check [N].
 
@@ -307,8 +301,8 @@ def _calm(graph: BondGraph) -> float:
     points = np.concatenate([graph.centres, graph.centres[graph.bonds].mean(axis=1)])
     wrenches = np.moveaxis(graph.wrenches_per_force(points), 0, 1).reshape(6 * len(graph.nodes), -1)
     components = (graph.response @ wrenches).reshape(len(graph.bonds), 6, len(points), 3)
-    bound = graph.tensile(np.linalg.norm(components, axis=3).transpose(2, 0, 1))
-    return float(BETWEEN_SAMPLES / (bound / graph.strengths).max())
+    membrane, bending = graph.stresses(np.linalg.norm(components, axis=3).transpose(2, 0, 1))
+    return float(BETWEEN_SAMPLES / (membrane / graph.strengths + bending / graph.bending_strength).max())
 
 
 def strength_of(thing_quantities: dict[str, float], draw: bool, rng: np.random.Generator) -> float:
@@ -316,4 +310,3 @@ def strength_of(thing_quantities: dict[str, float], draw: bool, rng: np.random.G
     mean = thing_quantities["breakingForce"]
     deviation = thing_quantities.get("breakingForceDeviation", 0.0)
     return mean if not draw else float(max(rng.normal(mean, deviation), 0.2 * mean))
-

@@ -15,8 +15,9 @@ from functools import lru_cache
 
 import numpy as np
 
+from prolepsis.errors import KnowledgeError
 from prolepsis.phenomena.bond_graph import BondGraph
-from prolepsis.shapes.egg import Shell, ellipsoid_normals, ellipsoid_points, ellipsoid_shell
+from prolepsis.shapes.egg import ellipsoid_normals, ellipsoid_points, ellipsoid_shell
 from prolepsis.things import FloatArray
 
 PINCH_COUNT = 300
@@ -31,14 +32,15 @@ PATCH = 0.6
 def calibrated_graph(
     semi_axes: tuple[float, float, float],
     piece_count: int,
+    *,
     thickness: float,
     youngs_modulus: float,
     poisson_ratio: float,
+    fracture_strain: float,
     mass: float,
+    breaking_force: float,
 ) -> BondGraph:
-    """Return the bond graph of an ellipsoidal shell that breaks between plates at 1 N on average.
-
-    Multiply its strengths by the breaking force [N] to get those of an actual shell.
+    """Return the bond graph of an ellipsoidal shell that breaks between plates at a given force.
 
     Args:
         semi_axes: Half lengths [m].
@@ -46,35 +48,12 @@ def calibrated_graph(
         thickness: Shell thickness [m].
         youngs_modulus: Young's modulus [Pa].
         poisson_ratio: Poisson's ratio [1].
+        fracture_strain: Tensile strain at which the material breaks [1].
         mass: Mass of the shell with its contents [kg].
+        breaking_force: Mean over all orientations of the force between plates at which it breaks [N].
     """
     shell = ellipsoid_shell(semi_axes, piece_count, thickness)
-    graph = _uncalibrated(shell, thickness, youngs_modulus, poisson_ratio, mass).assembled()
-    stresses = pinch_stresses(graph, np.asarray(semi_axes))
-    strengths = stresses.max(axis=0)
-    for _ in range(ROUNDS):
-        ratio = stresses / strengths
-        weakest, greatest = ratio.argmax(axis=1), ratio.max(axis=1)
-        count = np.bincount(weakest, minlength=len(strengths))
-        total = np.bincount(weakest, weights=greatest, minlength=len(strengths))
-        strengths = strengths * np.where(count > 0, total / np.maximum(count, 1), 1.0) ** 0.3
-    breaking_forces = 1 / (stresses / strengths).max(axis=1)
-    return replace(graph, strengths=strengths / breaking_forces.mean())
-
-
-def pinch_stresses(graph: BondGraph, semi_axes: FloatArray) -> FloatArray:
-    """Return bond stresses when 1 N presses on opposite points, shape (PINCH_COUNT, m) [Pa]."""
-    points = ellipsoid_points(semi_axes, PINCH_COUNT)
-    inward = -ellipsoid_normals(points, semi_axes)
-    here, there = graph.wrenches_per_force(points), graph.wrenches_per_force(-points)
-    wrenches = np.einsum("cij,cj->ci", here - there, inward)
-    return graph.tensile((wrenches @ graph.response.T).reshape(PINCH_COUNT, -1, 6))
-
-
-def _uncalibrated(
-    shell: Shell, thickness: float, youngs_modulus: float, poisson_ratio: float, mass: float
-) -> BondGraph:
-    return BondGraph(
+    graph = BondGraph(
         nodes=np.arange(len(shell.centres)),
         centres=shell.centres,
         normals=shell.normals,
@@ -82,9 +61,39 @@ def _uncalibrated(
         bonds=shell.bonds,
         widths=shell.widths,
         strengths=np.ones(len(shell.bonds)),
+        bending_strength=youngs_modulus * fracture_strain,
         weakened=np.zeros(len(shell.bonds), dtype=bool),
         thickness=thickness,
         youngs_modulus=youngs_modulus,
         poisson_ratio=poisson_ratio,
         spread=PATCH * float(np.sqrt(shell.areas.mean())),
-    )
+    ).assembled()
+    membrane, bending = pinch_stresses(graph, np.asarray(semi_axes), breaking_force)
+    rest = 1 - bending / graph.bending_strength
+    if rest.min() <= 0:
+        raise KnowledgeError(
+            f"a shell of {thickness * 1000:g} mm whose material breaks at {graph.bending_strength / 1e6:.0f} MPa "
+            f"cannot bear {breaking_force:g} N between plates"
+        )
+    # Membrane stress over what bending leaves of the strength: a bond gives way when this reaches its strength.
+    demand = membrane / rest
+    strengths = demand.max(axis=0)
+    for _ in range(ROUNDS):
+        ratio = demand / strengths
+        weakest, greatest = ratio.argmax(axis=1), ratio.max(axis=1)
+        count = np.bincount(weakest, minlength=len(strengths))
+        total = np.bincount(weakest, weights=greatest, minlength=len(strengths))
+        strengths = strengths * np.where(count > 0, total / np.maximum(count, 1), 1.0) ** 0.3
+    for _ in range(ROUNDS):
+        loads = (membrane / strengths + bending / graph.bending_strength).max(axis=1)
+        strengths = strengths * loads.mean()
+    return replace(graph, strengths=strengths)
+
+
+def pinch_stresses(graph: BondGraph, semi_axes: FloatArray, force: float) -> tuple[FloatArray, FloatArray]:
+    """Return membrane and bending stresses when a force presses on opposite points [Pa], each (PINCH_COUNT, m)."""
+    points = ellipsoid_points(semi_axes, PINCH_COUNT)
+    inward = -force * ellipsoid_normals(points, semi_axes)
+    here, there = graph.wrenches_per_force(points), graph.wrenches_per_force(-points)
+    wrenches = np.einsum("cij,cj->ci", here - there, inward)
+    return graph.stresses((wrenches @ graph.response.T).reshape(PINCH_COUNT, -1, 6))

@@ -73,7 +73,9 @@ def _supporters_first(names: list[str], below: dict[str, str]) -> list[str]:
     return ordered
 
 
-def _things_of(kb: KnowledgeBase, name: str, made: dict[str, tuple[Thing, ...]], rests_on: str | None) -> tuple[Thing, ...]:
+def _things_of(
+    kb: KnowledgeBase, name: str, made: dict[str, tuple[Thing, ...]], rests_on: str | None
+) -> tuple[Thing, ...]:
     thing = _thing(kb, name)
     under = made.get(rests_on, ()) if rests_on is not None else ()
     if rests_on is not None:
@@ -136,7 +138,11 @@ def _thing(kb: KnowledgeBase, name: str) -> Thing:
 def _orientation(q: dict[str, float]) -> Quaternion:
     """Return the quaternion of yaw about z, then pitch about y, then roll about x [rad]."""
     result = np.array([1.0, 0.0, 0.0, 0.0])
-    for angle, axis in ((q.get("yaw", 0.0), (0, 0, 1)), (q.get("pitch", 0.0), (0, 1, 0)), (q.get("roll", 0.0), (1, 0, 0))):
+    for angle, axis in (
+        (q.get("yaw", 0.0), (0, 0, 1)),
+        (q.get("pitch", 0.0), (0, 1, 0)),
+        (q.get("roll", 0.0), (1, 0, 0)),
+    ):
         turn, product = np.zeros(4), np.zeros(4)
         mujoco.mju_axisAngle2Quat(turn, np.asarray(axis, dtype=np.float64), angle)
         mujoco.mju_mulQuat(product, result, turn)
@@ -170,7 +176,10 @@ def _egg(kb: KnowledgeBase, egg: Thing) -> tuple[Thing, ...]:
     parts = [_part(kb, part, egg) for part in kb.parts(egg.name)]
     shell = next(part for part in parts if part.name == shells[0])
     stuffs = tuple(
-        (part, sort) for part in parts for cls, sort in STUFFS.items() if kb.is_a(part.name, cls) and part.name != shell.name
+        (part, sort)
+        for part in parts
+        for cls, sort in STUFFS.items()
+        if kb.is_a(part.name, cls) and part.name != shell.name
     )
     # What touches the world is the shell, so the whole is as slippery as that.
     whole = replace(egg, quantities={**egg.quantities, "friction": shell.quantities["friction"]})
@@ -192,4 +201,3 @@ def _part(kb: KnowledgeBase, name: str, whole: Thing) -> Thing:
         roles=frozenset(c for c in kb.classes(name) if c in ROLES) - {"Breakable", "Container"},
         quantities={**quantities, **deviations},
     )
-
