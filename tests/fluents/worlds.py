@@ -14,6 +14,7 @@ from prolepsis.things import FloatArray, Thing
 from prolepsis.timeline import Timeline
 
 Control = Callable[[Any, Any], None]
+STEP = 0.002
 FLOOR = '<geom name="floor" type="plane" size="2 2 .1"/>'
 
 
@@ -47,6 +48,7 @@ def cup_geoms(
 ) -> str:
     """Return the walls and the bottom of a cup that stands on the origin of its body."""
     geoms: list[str] = []
+    count = 16
     for k in range(count):
         angle = 2 * np.pi * k / count
         x, y = radius * np.cos(angle), radius * np.sin(angle)
@@ -60,7 +62,7 @@ def cup_geoms(
     return "".join(geoms)
 
 
-def roll(xml: str, seconds: float, control: Control | None = None, dt: float = 0.001) -> tuple[Any, FloatArray]:
+def roll(xml: str, seconds: float, control: Control | None = None, dt: float = STEP) -> tuple[Any, FloatArray]:
     """Return a model and the integration states of a rollout, one a step."""
     model = mujoco.MjModel.from_xml_string(xml)
     model.opt.timestep = dt
@@ -80,7 +82,37 @@ def watch(
 ) -> Timeline:
     """Return the timeline of a rollout."""
     model, states = roll(xml, seconds, control)
-    return recognize(Log.from_mujoco(model, states, 0.001, scene))
+    return recognize(Log.from_mujoco(model, states, STEP, scene))
+
+
+def ramp(time: float, start: float, end: float, height: float) -> float:
+    """Return a value that rises from 0 to ``height`` between two times."""
+    return height * min(max((time - start) / (end - start), 0.0), 1.0)
+
+
+HAND = (
+    '<body name="hand" pos="0 0 .05"><joint name="x" type="slide" axis="1 0 0"/><joint name="z" type="slide"/>'
+    '<geom type="box" size=".02 .06 .01" pos="0 0 .08" mass=".3"/>'
+    '<body name="left_finger" pos="0 .05 0"><joint name="l" type="slide" axis="0 1 0" range="-.05 .02" damping="5"/>'
+    '<geom type="box" size=".015 .005 .03" mass=".1"/></body>'
+    '<body name="right_finger" pos="0 -.05 0"><joint name="r" type="slide" axis="0 -1 0" range="-.05 .02" damping="5"/>'
+    '<geom type="box" size=".015 .005 .03" mass=".1"/></body></body>'
+)
+"""A parallel gripper on two slides, open, around what stands at the origin."""
+HAND_DRIVES = (
+    '<actuator><position joint="x" kp="2000" kv="100"/><position joint="z" kp="2000" kv="100"/>'
+    '<motor joint="l"/><motor joint="r"/></actuator>'
+)
+
+
+def drive(x: Callable[[float], float], z: Callable[[float], float], squeeze: Callable[[float], float]) -> Control:
+    """Return the control of ``HAND``: where it goes [m] and how hard it squeezes [N] at each time [s]."""
+
+    def control(model: Any, data: Any) -> None:
+        force = squeeze(data.time)
+        data.ctrl[:] = [x(data.time), z(data.time), -force, -force]
+
+    return control
 
 
 def ever(timeline: Timeline) -> set[str]:

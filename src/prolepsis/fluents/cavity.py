@@ -22,9 +22,9 @@ BLOCKED = 0.501
 has a blocked end, so that walls thinner than a step do not leak."""
 LEAST_DEPTH = 1.2
 """Depth of a depression [grid steps] below which it is an artefact of the grid's steps on a slanted surface."""
-CLEARANCE = 0.4
-"""Share of its least half-width [1] that a body needs around its inner points to pass a gap: with samples at
-half its width a body that touches a wall still counts as clear of it, and one does not slip through a grate."""
+CLEARANCE = 0.7
+"""Share of its least half-width [1] that a body needs around its inner points to pass a gap: it does not slip
+through a grate. Its samples lie within a quarter of its half-width, so it may touch a wall."""
 CLEARANCE_STEPS = 5
 """Greatest clearance that is told apart [grid steps]."""
 ORIENTATIONS = 16
@@ -67,7 +67,8 @@ class Cavity:
             moved = self._cleared(points[doubtful], clearance + self.step)
             places[doubtful], inside[doubtful] = self._nodes(moved)
         found = levels[tuple(places.T)]
-        rise = found - (points * up).sum(axis=1)
+        # The way out passes an edge at the clearance above it.
+        rise = found - clearance - (points * up).sum(axis=1)
         # An infinite level is a closed hollow; a blocked node says nothing.
         free = self.distance[tuple(places.T)] >= clearance
         in_depression = inside & free & (rise > LEAST_DEPTH * self.step)

@@ -10,9 +10,9 @@ import numpy as np
 from prolepsis.fluents.hull import hull_planes
 from prolepsis.things import FloatArray, Geom, Shape
 
-SAMPLE_SCALES = (0.25, 0.5)
+SAMPLE_SCALES = (0.125, 0.25)
 """Where samples lie between the middle (0) and the surface (1) of a solid: deep enough that a wall which the
-solid touches is at least half its least half-width away."""
+solid touches is at least three quarters of its least half-width away."""
 _STEPS = (-1.0, 0.0, 1.0)
 _DIRECTIONS = np.array(
     [(x, y, z) for x in _STEPS for y in _STEPS for z in _STEPS if abs(x) + abs(y) + abs(z) in (1.0, 3.0)]
@@ -204,7 +204,7 @@ def samples(solids: tuple[Solid, ...]) -> tuple[FloatArray, FloatArray]:
         spread = solid.corners - middle
         if len(spread) > len(_DIRECTIONS):
             spread = spread[np.unique(np.argmax(spread @ _DIRECTIONS.T, axis=0))]
-        scales = SAMPLE_SCALES if len(solids) <= 4 else (SAMPLE_SCALES[0],)
+        scales = SAMPLE_SCALES if len(solids) <= 4 else (SAMPLE_SCALES[1],)
         local = np.concatenate([middle[None], *(middle + scale * spread for scale in scales)])
         points.append(local @ solid.rotation.T + solid.position)
         weights.append(np.full(len(local), max(solid.volume, 1e-15) / len(local)))

@@ -13,7 +13,7 @@ UNDER_COSINE = 0.5
 """A contact lies under what it pushes at when its normal is within 60 degrees of up: grooves and slopes carry
 so, a wall or a pad does not."""
 
-AT_ONCE = 0.005
+AT_ONCE = 0.01
 """Contact that begins within this time [s] was there from the start: a thing that is put down in a scene carries
 no force until it has sunk in by a hair."""
 

@@ -1,0 +1,145 @@
+"""Stories on logs made by hand: grippers, commanded levels, actions and grips."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from tests.fluents.logs import Draft, floor, solid_box
+from tests.fluents.worlds import ever, of_type, times
+
+from prolepsis.fluents import EVENTS, FLUENTS, recognize
+from prolepsis.fluents.actions import ing
+from prolepsis.log import Action, Bonds
+from prolepsis.terms import Term
+from prolepsis.things import Geom, Shape, Thing
+
+
+def hand(name: str = "rightGripper") -> list[Thing]:
+    """Return a gripper of a palm and two fingers."""
+    pad = Shape(geoms=(Geom(type="box", size=(0.02, 0.005, 0.02)),))
+    return [
+        Thing(name=name, kind="Hand", roles=frozenset({"Gripper"}), position=(0.0, 0.0, 0.2)),
+        Thing(name=f"{name}/palm", kind="Palm", shape=pad, whole=name, position=(0.0, 0.0, 0.2)),
+        Thing(name=f"{name}/left_finger", kind="Finger", shape=pad, whole=name, position=(0.0, 0.055, 0.05)),
+        Thing(name=f"{name}/right_finger", kind="Finger", shape=pad, whole=name, position=(0.0, -0.055, 0.05)),
+    ]
+
+
+def grasp_draft() -> Draft:
+    draft = Draft(1000, [floor(), *hand(), solid_box("egg1", mass=0.1)])
+    draft.carrier[:, draft.index("rightGripper")] = -1
+    return draft
+
+
+def squeeze(draft: Draft, start: int, end: int, force: float = 10.0) -> None:
+    draft.press("rightGripper/left_finger", "egg1", start, end, (0.0, -force, 0.5), (0.0, -1.0, 0.0))
+    draft.press("rightGripper/right_finger", "egg1", start, end, (0.0, force, 0.5), (0.0, 1.0, 0.0))
+
+
+def test_closing_carries_the_commanded_level_of_the_grasp() -> None:
+    draft = grasp_draft()
+    state = np.zeros(1000)
+    state[100:300], state[800:900] = -1.0, 1.0
+    force = np.linspace(0.0, 20.0, 1000)
+    grasp = Action(term=Term("grasp", ("rightGripper", "egg1", "force7")), start=50, end=320)
+    release = Action(term=Term("release", ("rightGripper",)), start=800, end=900)
+    channels = {"rightGripper.gripper": state, "rightGripper.pad_force": force}
+    timeline = recognize(draft.log(channels=channels, actions=(grasp, release)))
+    assert times(timeline, "closingGripper(rightGripper)") == [(0.1, 0.3)]
+    assert times(timeline, "openingGripper(rightGripper)") == [(0.8, 0.9)]
+    (closing,) = timeline.select(type="closingGripper")
+    assert closing.evidence["level"] == "force7"
+    assert closing.evidence["force"] == force[299]
+    assert "level" not in timeline.select(type="openingGripper")[0].evidence
+    assert times(timeline, "grasping(rightGripper,egg1,force7)") == [(0.05, 0.32)]
+    assert times(timeline, "releasing(rightGripper)") == [(0.8, 0.9)]
+
+
+@pytest.mark.parametrize(("argument", "level"), [(20, 20.0), (7.5, 7.5), ("force12", "force12")])
+def test_a_level_may_be_a_number(argument: float | str, level: float | str) -> None:
+    draft = grasp_draft()
+    close = Action(term=Term("close", ("rightGripper", argument)), start=0, end=300)
+    other = Action(term=Term("grasp", ("leftGripper", "cup1", 3)), start=0, end=400)
+    state = np.where(np.arange(1000) < 250, -1.0, 0.0)
+    timeline = recognize(draft.log(channels={"rightGripper.gripper": state}, actions=(other, close)))
+    assert timeline.select(type="closingGripper")[0].evidence["level"] == level
+
+
+def test_without_a_logged_state_the_gap_between_the_fingers_tells() -> None:
+    draft = grasp_draft()
+    way = np.concatenate((np.zeros(200), np.linspace(0, 0.02, 300), np.full(200, 0.02), np.linspace(0.02, 0, 300)))
+    draft.poses[:, draft.index("rightGripper/left_finger"), 1] -= way
+    draft.poses[:, draft.index("rightGripper/right_finger"), 1] += way
+    timeline = recognize(draft.log())
+    ((start, end),) = times(timeline, "closingGripper(rightGripper)")
+    assert abs(start - 0.2) < 0.02
+    assert abs(end - 0.5) < 0.02
+    assert len(times(timeline, "openingGripper(rightGripper)")) == 1
+    assert "moving(rightGripper)" not in ever(timeline)
+
+
+def test_a_grip_attaches_when_nothing_else_carries() -> None:
+    draft = grasp_draft()
+    squeeze(draft, 200, 1000)
+    draft.rest("floor", "egg1", 0, 500, 0.981)
+    timeline = recognize(draft.log())
+    assert times(timeline, "attached(rightGripper,egg1)") == [(0.5, 1.0)]
+    (fact,) = timeline.select(type="attached")
+    assert fact.evidence["by"] == "grip"
+    assert fact.evidence["pad_force"] == pytest.approx(10.0)  # type: ignore[reportUnknownMemberType]
+    assert "supports(rightGripper,egg1)" not in ever(timeline)
+
+
+def test_what_slips_out_of_the_fingers_is_not_attached() -> None:
+    draft = grasp_draft()
+    squeeze(draft, 0, 1000)
+    draft.poses[:, draft.index("egg1"), 2] -= 0.05 * np.arange(1000) / 1000
+    assert not of_type(recognize(draft.log()), "attached", "falling")
+
+
+def test_one_finger_does_not_hold() -> None:
+    draft = grasp_draft()
+    draft.press("rightGripper/left_finger", "egg1", 0, 1000, (0.0, -10.0, 0.9), (0.0, -1.0, 0.0))
+    assert not of_type(recognize(draft.log()), "attached", "supports")
+
+
+def test_what_lies_on_a_palm_is_supported_and_not_attached() -> None:
+    draft = grasp_draft()
+    draft.rest("rightGripper/palm", "egg1", 0, 1000, 0.981)
+    timeline = recognize(draft.log())
+    assert of_type(timeline, "supports", "attached") == {"supports(rightGripper,egg1)"}
+
+
+def test_a_joint_attaches_for_as_long_as_it_is_there() -> None:
+    draft = grasp_draft()
+    one = np.array([draft.index("rightGripper/palm")])
+    bonds = Bonds(a=one, b=np.array([draft.index("egg1")]), start=np.array([100]), end=np.array([500]))
+    timeline = recognize(draft.log(bonds=bonds))
+    assert times(timeline, "attached(rightGripper,egg1)") == [(0.1, 0.5)]
+
+
+def test_actions_become_events_in_ing() -> None:
+    verbs = ["grasp", "release", "move", "hit", "pourTo", "put", "wait", "open", "wipe", "lie", "stir", "carry", "tap"]
+    assert [ing(verb) for verb in verbs] == [
+        "grasping", "releasing", "moving", "hitting", "pouringTo", "putting", "waiting", "opening", "wiping", "lying",
+        "stirring", "carrying", "tapping",
+    ]  # fmt: skip
+
+
+def test_any_action_of_a_log_is_an_event_with_its_arguments() -> None:
+    draft = grasp_draft()
+    stir = Action(term=Term("stir", ("rightGripper", (0.1, 2))), start=10, end=10, outcome="cut")
+    (fact,) = recognize(draft.log(actions=(stir,))).select(type="stirring")
+    assert (fact.start, fact.end, fact.args, fact.evidence["outcome"]) == (
+        0.01,
+        0.011,
+        ("rightGripper", "[0.1,2]"),
+        "cut",
+    )
+
+
+def test_all_of_both_tables_and_the_actions_are_listed_with_a_line() -> None:
+    assert set(FLUENTS) == {"contacts", "attached", "supports", "contains", "broken", "spilled"}
+    table2 = {"colliding", "falling", "moving", "openingGripper", "closingGripper", "breaking", "spilling"}
+    assert table2 | {"grasping", "lifting", "holding", "releasing"} <= set(EVENTS)
+    assert all(known.doc for known in (*FLUENTS.values(), *EVENTS.values()))
