@@ -6,7 +6,6 @@ too much, and starts the process again should it die. Facts are loaded when a ti
 
 from __future__ import annotations
 
-import atexit
 import difflib
 import os
 import threading
@@ -42,7 +41,12 @@ class Session:
         self._names: dict[int, str] = {}
         self._loaded: set[str] = set()
         self._made = 0
-        atexit.register(self.close)
+        # Not atexit: that comes after Python has waited for swiplserver's threads, which read until Prolog ends.
+        threading.Thread(target=self._close_with_the_program, name="prolepsis-session").start()
+
+    def _close_with_the_program(self) -> None:
+        threading.main_thread().join()
+        self.close()
 
     def load(self, timeline: Timeline, *, run: str | None = None) -> str:
         """Load a timeline as a run, unless it is loaded, and return the name of the run.
