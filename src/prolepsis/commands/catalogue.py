@@ -147,7 +147,7 @@ def _action(spec: ActionSpec) -> str:
 
 def _individual(name: str, knowledge: KnowledgeBase) -> str:
     rows = [
-        (prop, f"{known.value:.6g}" if isinstance(known.value, float) else known.value, known.unit, known.origin)
+        (prop, f"{known.value:.6g}" if isinstance(known.value, float) else str(known.value), known.unit, known.origin)
         for prop, known in knowledge.quantities(name).items()
     ]
     return f"{name}: individual of {', '.join(knowledge.classes(name))}\n" + table(rows, indent="  ")

@@ -89,7 +89,18 @@ def bindings(answer: Mapping[str, Value]) -> str:
     """Return an answer for people, ``F = broken(egg1), T = 0.4-2.0``; of a goal without variables, ``yes``."""
     from prolepsis.terms import format_value
 
-    return ", ".join(f"{name} = {format_value(value)}" for name, value in answer.items()) or "yes"
+    return ", ".join(f"{name} = {format_value(_rounded(value))}" for name, value in answer.items()) or "yes"
+
+
+def _rounded(value: Value) -> Value:
+    """Return a value with numbers rounded to a microsecond, micrometre or micronewton."""
+    from prolepsis.terms import Term
+
+    if isinstance(value, Term):
+        return Term(value.functor, tuple(_rounded(argument) for argument in value.args))
+    if isinstance(value, tuple):
+        return tuple(_rounded(item) for item in value)
+    return round(value, 6) if isinstance(value, float) else value
 
 
 def table(rows: Iterable[Sequence[str]], *, indent: str = "") -> str:

@@ -5,9 +5,12 @@ from __future__ import annotations
 import argparse
 import json
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from prolepsis.commands.output import add_command, table
+
+if TYPE_CHECKING:
+    from prolepsis.timeline import Timeline
 
 EXAMPLE = """\
   prolepsis timeline out/drop
@@ -27,19 +30,25 @@ def add_to(commands: Any) -> None:
 def run(given: argparse.Namespace) -> int:
     """Print the facts."""
     from prolepsis.saved import read_timeline
-    from prolepsis.terms import format_value
 
     timeline = read_timeline(given.folder)
     if given.json:
         for row in timeline.to_json():
             print(json.dumps(row, ensure_ascii=False))
-        return 0
-    rows = [
+    else:
+        print(table(rows(timeline)))
+    return 0
+
+
+def rows(timeline: Timeline) -> list[tuple[str, str, str, str, str]]:
+    """Return a heading and a row for each fact."""
+    from prolepsis.terms import format_value
+
+    facts = [
         (f"{fact.start:.3f}", f"{fact.end:.3f}", fact.kind, format_value(fact.term), evidence(fact.evidence))
         for fact in timeline.facts
     ]
-    print(table([("start[s]", "end[s]", "kind", "what", "evidence"), *rows]))
-    return 0
+    return [("start[s]", "end[s]", "kind", "what", "evidence"), *facts]
 
 
 def evidence(found: Mapping[str, float | str]) -> str:

@@ -1,0 +1,7 @@
+"""``python -m prolepsis`` is the command line."""
+
+import sys
+
+from prolepsis.cli import main
+
+sys.exit(main())
