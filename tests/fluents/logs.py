@@ -101,7 +101,7 @@ def solid_box(name: str, *, half: float = 0.05, mass: float = 1.0, z: float = 0.
 
 
 def egg() -> list[Thing]:
-    """Return an egg of a shell in two halves (open boxes of ``PLATES`` pieces), a yolk of three blobs and a white of two."""
+    """Return an egg: a shell of two open boxes of ``PLATES`` pieces, a yolk of three blobs, a white of two."""
     body = Shape(geoms=(Geom(type="ellipsoid", size=(0.022, 0.022, 0.0285)),))
     place = (0.0, 0.0, 0.5)
     things = [

@@ -1,0 +1,44 @@
+"""The page on grounding: its example runs as it stands, and it names every constant's value as it is."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from tests.fluents.worlds import FLOOR, STEP, box, roll, times, world
+
+from prolepsis.errors import InputError
+from prolepsis.fluents import EVENTS, FLUENTS, recognize
+from prolepsis.fluents.registry import GROUNDINGS, fluent
+from prolepsis.log import Log
+
+PAGE = Path(__file__).parents[2] / "docs" / "grounding.md"
+
+
+def test_the_example_of_a_new_fluent_runs() -> None:
+    (source,) = re.findall(r"```python\n(.*?)```", PAGE.read_text(), re.DOTALL)
+    groundings = list(GROUNDINGS)
+    try:
+        exec(compile(source, str(PAGE), "exec"), {"__name__": "page"})
+        assert FLUENTS["upsideDown"].doc == "The thing's own upward axis points down."
+        model, states = roll(world(FLOOR + box("a", "0 0 .05", turn="180 0 0") + box("b", ".3 0 .05")), 0.3)
+        timeline = recognize(Log.from_mujoco(model, states, STEP))
+        assert times(timeline, "upsideDown(a)") == [(0.0, 0.3)]
+        assert not times(timeline, "upsideDown(b)")
+    finally:
+        GROUNDINGS[:] = groundings
+        FLUENTS.pop("upsideDown", None)
+
+
+def test_the_page_names_every_fluent_and_event() -> None:
+    page = PAGE.read_text()
+    for name in (*FLUENTS, *EVENTS):
+        assert f"`{name}(" in page or name.endswith("ing")
+    for name in ("moving", "falling", "colliding", "breaking", "spilling"):
+        assert f"`{name}(" in page
+
+
+def test_a_fluent_is_defined_once_with_the_same_arguments() -> None:
+    with pytest.raises(InputError, match=r"fluent contacts: arguments \('a',\), but elsewhere \('o1', 'o2'\)"):
+        fluent("contacts", "a")(lambda observation: [])

@@ -1,0 +1,128 @@
+"""Foreign rollouts become logs: things, forces as MuJoCo gives them, bonds, and refusals."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+from tests.fluents.worlds import FLOOR, HAND, HAND_DRIVES, STEP, ball, box, roll, world
+
+from prolepsis.errors import InputError, InvalidSimulationError, UnknownNameError
+from prolepsis.log import Log
+from prolepsis.things import FloatArray, Thing
+
+
+@pytest.mark.parametrize("cone", ["elliptic", "pyramidal"])
+def test_contact_forces_are_those_of_mujoco(cone: str) -> None:
+    xml = world(FLOOR + box("a", "0 0 .05") + box("b", ".02 .01 .15") + ball("c", ".3 0 .03"))
+    model, states = roll(xml.replace('cone="elliptic"', f'cone="{cone}"'), 0.2, push)
+    log = Log.from_mujoco(model, states, STEP)
+    data = mujoco.MjData(model)
+    for tick in (3, 40, 99):
+        mujoco.mj_setState(model, data, states[tick], mujoco.mjtState.mjSTATE_INTEGRATION)
+        mujoco.mj_forward(model, data)
+        expected = np.zeros((len(log.things), 3))
+        wrench = np.zeros(6)
+        for number in range(data.ncon):
+            mujoco.mj_contactForce(model, data, number, wrench)
+            body = model.geom_bodyid[data.contact[number].geom2]
+            expected[body] += data.contact[number].frame.reshape(3, 3).T @ wrench[:3]
+        found = np.zeros_like(expected)
+        here = log.contacts.tick == tick
+        np.add.at(found, log.contacts.b[here], log.contacts.force[here])
+        assert np.abs(expected).max() > 1
+        assert np.allclose(found, expected, atol=1e-9)
+
+
+def push(model: Any, data: Any) -> None:
+    data.qfrc_applied[0] = 3.0
+
+
+def test_a_resting_box_is_borne_with_its_weight() -> None:
+    model, states = roll(world(FLOOR + box("a", "0 0 .05", mass=2)), 0.5)
+    log = Log.from_mujoco(model, states, STEP)
+    last = log.contacts.tick == log.tick_count - 1
+    assert np.allclose(log.contacts.force[last].sum(axis=0), (0, 0, 2 * 9.81), atol=1e-3)
+    assert [thing.name for thing in log.things] == ["floor", "a"]
+
+
+def test_bodies_parts_and_world_geoms_become_things() -> None:
+    shade = '<body name="shade"><geom type="sphere" size=".1"/></body>'
+    lamp = f'<body name="lamp"><geom type="box" size=".1 .1 .1"/>{shade}</body>'
+    walls = '<geom name="wall" type="box" size=".1 1 1" pos="3 0 0"/><geom type="box" size=".1 .1 .1" pos="-3 0 0"/>'
+    model, states = roll(world(FLOOR + walls + lamp + HAND + box("a", "1 0 .05"), HAND_DRIVES), 0.01)
+    log = Log.from_mujoco(model, states, STEP)
+    things = {thing.name: thing for thing in log.things}
+    assert set(things) == {
+        "floor", "wall", "world", "lamp", "lamp/shade", "hand", "hand/left_finger", "hand/right_finger", "a",
+    }  # fmt: skip
+    assert {name for name, thing in things.items() if thing.fixed} == {"floor", "wall", "world", "lamp", "lamp/shade"}
+    assert things["hand/left_finger"].whole == "hand"
+    assert {"Driven", "Mounted"} <= things["hand"].roles
+    assert not things["a"].roles
+    assert things["floor"].roles == {"Floor"}
+    carrier = dict(zip(things, log.carrier[0].tolist(), strict=True))
+    assert carrier["lamp/shade"] == carrier["lamp"]
+    assert carrier["hand/left_finger"] != carrier["hand"]
+
+
+def test_a_scene_says_more_of_the_things() -> None:
+    model, states = roll(world(FLOOR + HAND, HAND_DRIVES), 0.01)
+    gripper = Thing(name="hand", kind="Hand", roles=frozenset({"Gripper"}), quantities={"friction": 0.9})
+    for scene in ({"hand": gripper}, [gripper]):
+        log = Log.from_mujoco(model, states, STEP, scene)
+        hand = log.things[log.index("hand")]
+        assert (hand.kind, hand.quantities["friction"]) == ("Hand", 0.9)
+        assert {"Gripper", "Driven"} <= hand.roles
+        assert hand.shape.geoms
+    with pytest.raises(UnknownNameError, match="no thing named 'hnad'; did you mean 'hand'"):
+        Log.from_mujoco(model, states, STEP, {"hnad": gripper})
+
+
+def test_a_mesh_becomes_the_vertices_of_its_hull() -> None:
+    points = "0 0 0  .1 0 0  0 .1 0  0 0 .1  .02 .02 .02"
+    asset = f'<asset><mesh name="corner" vertex="{points}"/></asset>'
+    body = '<body name="corner" pos="0 0 1"><freejoint/><geom type="mesh" mesh="corner"/></body>'
+    model, states = roll(world(body, asset), 0.01)
+    (geom,) = Log.from_mujoco(model, states, STEP).things[0].shape.geoms
+    assert (geom.type, len(geom.vertices)) == ("mesh", 4)
+
+
+def test_a_switched_weld_is_a_bond_while_it_is_on() -> None:
+    weld = '<equality><weld body1="a" body2="b"/></equality>'
+
+    def switch(model: Any, data: Any) -> None:
+        data.eq_active[0] = 0.01 < data.time < 0.05
+
+    model, states = roll(world(box("a", "0 0 1") + box("b", "0 0 2"), weld), 0.1, switch)
+    bonds = Log.from_mujoco(model, states, STEP).bonds
+    assert len(bonds.a) == 1
+    assert (bonds.a[0], bonds.b[0]) == (0, 1)
+    assert 4 <= bonds.start[0] <= 7
+    assert 24 <= bonds.end[0] <= 27
+
+
+def spoil(states: FloatArray, row: int, value: float) -> FloatArray:
+    spoilt = states.copy()
+    spoilt[row, 3] = value
+    return spoilt
+
+
+def test_bad_states_are_refused() -> None:
+    model, states = roll(world(FLOOR + box("a", "0 0 .05")), 0.02)
+    with pytest.raises(InvalidSimulationError, match=r"nan at 0.008 s \(state 4\)"):
+        Log.from_mujoco(model, spoil(states, 4, np.nan), STEP)
+    with pytest.raises(InvalidSimulationError, match="unstable"):
+        Log.from_mujoco(model, spoil(states, 4, 1e12), STEP)
+    with pytest.raises(InputError, match=r"shape \(10, 7\); \(T, \d+\) with T > 0 is needed"):
+        Log.from_mujoco(model, states[:, :7], STEP)
+    with pytest.raises(InputError, match="dt: 0 s; a positive time"):
+        Log.from_mujoco(model, states, 0)
+
+
+def test_names_that_clash_are_refused() -> None:
+    model, states = roll(world('<geom name="a" type="plane" size="1 1 1"/>' + box("a", "0 0 .05")), 0.01)
+    with pytest.raises(InputError, match="several things are called a"):
+        Log.from_mujoco(model, states, STEP)
