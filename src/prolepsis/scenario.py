@@ -15,7 +15,7 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, StrictFloat, StrictInt, StrictStr, ValidationError
 
-from prolepsis.errors import InputError, ScenarioError, UnknownNameError
+from prolepsis.errors import InputError, PlanError, ScenarioError, UnknownNameError
 from prolepsis.knowledge import KnowledgeBase
 from prolepsis.terms import Term, Value, Variable, parse_term
 from prolepsis.units import read_quantity, si_symbol, to_si, unit_of
@@ -78,7 +78,9 @@ class Scenario:
     def __post_init__(self) -> None:
         """Refuse a scenario that cannot be run."""
         if self.duration is not None and not (math.isfinite(self.duration) and self.duration > 0.0):
-            raise ScenarioError(f"{self.path}: duration must be a finite number of seconds greater than 0, not {self.duration:g}")
+            raise ScenarioError(
+                f"{self.path}: duration must be a finite number of seconds greater than 0, not {self.duration:g}"
+            )
         for name, parameter in self.parameters.items():
             if isinstance(parameter.value, float) and not math.isfinite(parameter.value):
                 raise ScenarioError(f"{self.path}: parameter {name} must be finite, not {parameter.value}")
@@ -120,7 +122,7 @@ class Scenario:
         scenario = cls(
             path=path,
             situation=situation,
-            plan=parse_term(content.plan, where=f"{path}: plan"),
+            plan=_plan(content.plan, path),
             parameters={n: _parameter(v, f"{path}: parameter {n}") for n, v in content.parameters.items()},
             knowledge={n: _plain(v) for n, v in content.knowledge.items()},
             robot=content.robot,
@@ -158,7 +160,9 @@ class Scenario:
         base = KnowledgeBase.load(*self.situation)
         for name, parameter in self.parameters.items():
             if isinstance(parameter.value, str) and parameter.value not in base.individuals:
-                raise UnknownNameError.of("individual", parameter.value, base.individuals, f"{self.path}: parameter {name}")
+                raise UnknownNameError.of(
+                    "individual", parameter.value, base.individuals, f"{self.path}: parameter {name}"
+                )
         return base.with_values(self.knowledge) if self.knowledge else base
 
     def bound_plan(self) -> Value:
@@ -207,6 +211,13 @@ def _read(path: Path) -> _ScenarioFile:
         raise ScenarioError(f"{path}: {_first_problem(error, table)}") from error
 
 
+def _plan(text: str, path: Path) -> Value:
+    try:
+        return parse_term(text, where=f"{path}: plan")
+    except InputError as error:
+        raise PlanError(str(error)) from error
+
+
 def _first_problem(error: ValidationError, table: Mapping[str, Any]) -> str:
     problem = error.errors(include_url=False)[0]
     keys = [str(key) for key in problem["loc"]]
@@ -215,9 +226,9 @@ def _first_problem(error: ValidationError, table: Mapping[str, Any]) -> str:
     if problem["type"] == "missing" and len(keys) == 1:
         return f"the key {keys[0]!r} is missing; needed: situation, plan"
     if keys[0] == "parameters" and len(keys) > 1:
-        return f"parameter {keys[1]}: give a number, the name of an individual, or {{ value = 20, unit = \"N\" }}"
+        return f'parameter {keys[1]}: give a number, the name of an individual, or {{ value = 20, unit = "N" }}'
     if keys[0] == "knowledge" and len(keys) > 1:
-        return f"knowledge: {keys[1]}: give a number, a text or true/false; write the name in quotes, \"egg1.mass\""
+        return f'knowledge: {keys[1]}: give a number, a text or true/false; write the name in quotes, "egg1.mass"'
     given: object = table.get(keys[0])
     return f"{keys[0]} = {given!r}: {problem['msg'].lower()}"
 

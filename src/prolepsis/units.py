@@ -155,7 +155,9 @@ def to_si(value: float, unit: str, expected: str | None = None) -> float:
     return value * given.factor + given.offset
 
 
-_QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+]?(?:nan|inf(?:inity)?)\b)\s*(.*?)\s*\Z", re.I)
+_QUANTITY = re.compile(
+    r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+]?(?:nan|inf(?:inity)?)\b)\s*(.*?)\s*\Z", re.I
+)
 
 
 def read_quantity(text: str) -> tuple[float, str] | None:

@@ -76,6 +76,8 @@ class _Reader:
     cells: Mapping[str, Cells]
     mentioned: set[str]
     """IRIs of the classes read so far; each must be declared."""
+    regions: set[tuple[str, tuple[str, ...]]]
+    """Unions of cells read so far, by property."""
 
     @property
     def graph(self) -> Graph:
@@ -143,7 +145,9 @@ class _Reader:
             raise KnowledgeError(f"{self.document.path}: a restriction on {name} cannot be read: {self._shown(node)}")
         values = read_range(self.graph, nodes[0], entry)
         inside = cells.within(values)
-        union = _union(inside) if len(inside) < len(cells.samples) else THING[0]
+        union = cells.region(inside) if inside else NOTHING[0]
+        if 1 < len(inside) < len(cells.samples):
+            self.regions.add((name, inside))
         only = self.graph.value(node, OWL.allValuesFrom) is not None
         functor = "ObjectAllValuesFrom" if only else "ObjectSomeValuesFrom"
         return f"{functor}(<{cells.iri}> {union})", f"({name} {'only ' if only else ''}{values})"
@@ -155,12 +159,6 @@ def _joined(functor: str, word: str, parts: list[Expression]) -> Expression:
     return f"{functor}({' '.join(text for text, _ in parts)})", f"({word.join(reading for _, reading in parts)})"
 
 
-def _union(names: tuple[str, ...]) -> str:
-    if not names:
-        return NOTHING[0]
-    return names[0] if len(names) == 1 else f"ObjectUnionOf({' '.join(names)})"
-
-
 def terminology(
     documents: tuple[Document, ...], vocabulary: Vocabulary
 ) -> tuple[tuple[Axiom, ...], Mapping[str, Cells]]:
@@ -168,10 +166,11 @@ def terminology(
     cells = read_cells(documents, vocabulary)
     axioms: list[Axiom] = []
     classes = {entry.iri for entry in vocabulary.classes.values()}
+    regions: set[tuple[str, tuple[str, ...]]] = set()
     for document in documents:
-        reader = _Reader(document, vocabulary, cells, classes)
+        reader = _Reader(document, vocabulary, cells, classes, regions)
         axioms += [*_class_axioms(reader), *_property_axioms(reader)]
-    axioms += _cell_axioms(cells)
+    axioms += _cell_axioms(cells, regions)
     axioms += [Axiom(f"Declaration(Class(<{iri}>))") for iri in sorted(classes)]
     axioms += [
         Axiom(f"Declaration(Class({name}))") for own in cells.values() if len(own.samples) > 1 for name in own.all()
@@ -231,11 +230,17 @@ def _property_axioms(reader: _Reader) -> Iterator[Axiom]:
         yield Axiom(text, reading, document.where(URIRef(str(subject))))
 
 
-def _cell_axioms(cells: Mapping[str, Cells]) -> Iterator[Axiom]:
-    for name, own in cells.items():
+def _cell_axioms(cells: Mapping[str, Cells], regions: set[tuple[str, tuple[str, ...]]]) -> Iterator[Axiom]:
+    for own in cells.values():
         if len(own.samples) > 1:
-            yield Axiom(f"DisjointClasses({' '.join(own.all())})", f"values of {name} exclude each other")
-            yield Axiom(f"ObjectPropertyRange(<{own.iri}> {_union(own.all())})", f"values of {name} are of one kind")
+            yield Axiom(f"DisjointClasses({' '.join(own.all())})")
+    for name, inside in sorted(regions):
+        # A union would make the reasoner guess; a class of its own between the cells says as much of any one value.
+        region = cells[name].region(inside)
+        yield Axiom(f"Declaration(Class({region}))")
+        for cell in cells[name].all():
+            functor = "SubClassOf" if cell in inside else "DisjointClasses"
+            yield Axiom(f"{functor}({cell} {region})")
 
 
 def assertions(

@@ -139,6 +139,15 @@ class Cells:
         """Return the classes of the cells that lie in the range."""
         return tuple(self.name(i) for i, sample in enumerate(self.samples) if values.admits(sample))
 
+    def region(self, cells: tuple[str, ...]) -> str:
+        """Return the class of the values that lie in any of ``cells`` (at least one)."""
+        if len(cells) == len(self.samples):
+            return "<http://www.w3.org/2002/07/owl#Thing>"
+        if len(cells) == 1:
+            return cells[0]
+        numbers = "-".join(str(self.all().index(cell)) for cell in cells)
+        return f"<{self.iri}/cells{numbers}>"
+
     def of(self, value: Scalar) -> str:
         """Return the class of the cell in which ``value`` lies."""
         if value in self.points:

@@ -1,4 +1,4 @@
-"""Forward chaining: the types of individuals that follow step by step, found quickly; the reasoner then certifies that there are no others.
+"""Forward chaining: the types of individuals that follow step by step; the reasoner certifies that there are no others.
 
 Each rule here is a valid inference, so what it derives is right; it does not find everything (no reasoning by
 cases), which is why the reasoner has the last word.

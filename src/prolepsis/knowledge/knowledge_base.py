@@ -9,12 +9,16 @@ from pathlib import Path
 from prolepsis.domain import Domain
 from prolepsis.errors import KnowledgeError, UnknownNameError
 from prolepsis.knowledge.derived import volume
+from prolepsis.knowledge.describing import describe
 from prolepsis.knowledge.reasoning import Types, infer_types
 from prolepsis.knowledge.situation import Situation, Statement, read_situation
 from prolepsis.knowledge.spelling import refuse_unknown_names
 from prolepsis.knowledge.turtle import Document, documents_of
 from prolepsis.knowledge.values import Known
 from prolepsis.knowledge.vocabulary import Default, Vocabulary, read_value, read_vocabulary
+
+OF_THE_WALL = ("friction", "breakingForce", "plateStiffness", "shellThickness")
+"""A whole with one part that encloses the others has these of that part: one touches and breaks an egg by its shell."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -177,6 +181,18 @@ class KnowledgeBase:
             relations=self.relations(),
         )
 
+    def class_names(self) -> tuple[str, ...]:
+        """Return the names of all classes, sorted."""
+        return tuple(self.vocabulary.classes)
+
+    def describe(self, name: str) -> tuple[str, ...]:
+        """Return lines that tell what is known of a class, a property or an individual.
+
+        Raises:
+            UnknownNameError: If there is none of that name.
+        """
+        return describe(self, name)
+
     def _require(self, name: str, where: str = "") -> None:
         if name not in self.situation.classes:
             raise UnknownNameError.of("individual", name, self.individuals, where)
@@ -190,8 +206,17 @@ class KnowledgeBase:
         return self._derive(name, property_name) or self._default(name, property_name)
 
     def _derive(self, name: str, property_name: str) -> Known | None:
+        if property_name in OF_THE_WALL:
+            walls = [part for part in self.situation.parts.get(name, ()) if "Enclosure" in self.types.classes[part]]
+            known = self._find(walls[0], property_name) if len(walls) == 1 else None
+            if known is None:
+                return None
+            return replace(known, origin="derived", source=f"that of its wall {walls[0]} ({known.source})")
         if property_name != "mass":
             return None
+        shared = self._shared_mass(name)
+        if shared is not None:
+            return shared
         parts = self.situation.parts.get(name, ())
         masses = {part: self._find(part, "mass") for part in parts}
         if parts and all(masses.values()):
@@ -203,6 +228,35 @@ class KnowledgeBase:
         if found is None or density is None:
             return None
         return Known(value=density * found[0], unit="kg", origin="derived", source=f"density * {found[1]}")
+
+    def _stated(self, name: str, property_name: str) -> float | None:
+        for s in self.situation.statements:
+            if s.subject == name and s.property == property_name and isinstance(s.value, float):
+                return s.value
+        return None
+
+    def _shared_mass(self, name: str) -> Known | None:
+        """Return the share of a part in a stated mass of its whole, in proportion to the defaults."""
+        whole = self.situation.wholes.get(name)
+        total = self._stated(whole, "mass") if whole is not None else None
+        if whole is None or total is None:
+            return None
+        parts = self.situation.parts[whole]
+        stated = {part: self._stated(part, "mass") for part in parts}
+        usual = {part: self._default(part, "mass") for part in parts if stated[part] is None}
+        rest = total - sum(mass for mass in stated.values() if mass is not None)
+        own = usual.get(name)
+        if own is None:
+            return None
+        sum_of_usual = sum(float(known.value) for known in usual.values() if known is not None)
+        if rest <= 0.0:
+            raise KnowledgeError(f"mass of {whole} is {total:g} kg, which its parts of stated mass already exceed")
+        return Known(
+            value=float(own.value) * rest / sum_of_usual,
+            unit="kg",
+            origin="derived",
+            source=f"its share of the mass of {whole}",
+        )
 
     def _number(self, name: str, property_name: str) -> float | None:
         known = self._find(name, property_name)

@@ -14,7 +14,7 @@ class Known:
     unit: str
     """SI unit, ``1`` for a pure number and empty for what is no quantity."""
     origin: str
-    """``asserted`` (the situation says so), ``class default``, ``derived`` (computed from other values) or ``override``."""
+    """``asserted`` (the situation says so), ``class default``, ``derived`` (from other values) or ``override``."""
     source: str
     """The file, the default's source and class, or the formula."""
     certainty: str = ""
