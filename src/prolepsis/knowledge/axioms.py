@@ -197,7 +197,8 @@ def _class_axioms(reader: _Reader) -> Iterator[Axiom]:
             said = f"{local_name(subject)} is {_with_article(reading)}"
             yield Axiom(f"ClassAssertion({text} <{subject}>)", said, document.where(subject))
     for subject in graph.subjects(RDF.type, OWL.AllDisjointClasses):
-        members = sorted(reader.expression(m) for m in Collection(graph, graph.value(subject, OWL.members)))
+        listed = graph.value(subject, OWL.members)
+        members = [] if listed is None else sorted(reader.expression(m) for m in Collection(graph, listed))
         reading = f"nothing is two of {', '.join(r for _, r in members)}"
         yield Axiom(f"DisjointClasses({' '.join(t for t, _ in members)})", reading, str(document.path))
 

@@ -73,7 +73,7 @@ class DataRange:
             return f"not ({self.of[0]})"
         if self.kind == "all":
             return "any value"
-        shown = ", ".join(f"{v:g}" if isinstance(v, float) else v for v in self.values)
+        shown = ", ".join(f"{v:g}" if isinstance(v, float) else str(v) for v in self.values)
         return shown if self.kind == "values" else f"{self.kind} {shown}"
 
 
@@ -100,7 +100,7 @@ def read_range(graph: Graph, node: Node, entry: Property) -> DataRange:
     facets = graph.value(node, OWL.withRestrictions)
     if facets is not None:
         parts = [
-            DataRange(_FACETS[predicate], (_scalar(bound, entry),))
+            DataRange(_FACETS[URIRef(str(predicate))], (_scalar(bound, entry),))
             for facet in Collection(graph, facets)
             for predicate, bound in sorted(graph.predicate_objects(facet))
             if predicate in _FACETS

@@ -1,4 +1,4 @@
-"""Values that follow from others: the mass of a whole is that of its parts, the mass of a solid its density times volume."""
+"""Values that follow from others: the volume of a solid from its shape and extents."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ def describe(base: KnowledgeBase, name: str) -> tuple[str, ...]:
 
 
 def _shown(value: float | str) -> str:
-    return f"{value:g}" if isinstance(value, float) else value
+    return f"{value:g}" if isinstance(value, float) else str(value)
 
 
 def _class_lines(base: KnowledgeBase, entry: ClassEntry) -> list[str]:

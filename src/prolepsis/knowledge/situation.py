@@ -104,8 +104,12 @@ def _individuals(document: Document, vocabulary: Vocabulary) -> list[URIRef]:
             continue
         types = set(graph.objects(subject, RDF.type))
         name = local_name(subject)
-        declared = name in vocabulary.classes or name in vocabulary.properties
-        if not types & terms and not (declared and str(subject).startswith(NAMESPACE)):
+        taken = "class" if name in vocabulary.classes else "property" if name in vocabulary.properties else ""
+        if types and not types & terms and taken:
+            raise KnowledgeError(
+                f"{document.where(subject)}: {name} is the name of a {taken}; name the individual otherwise"
+            )
+        if not types & terms and not taken:
             found.add(subject)
     return sorted(found)
 

@@ -1,0 +1,51 @@
+"""Bad situations are refused with what is wrong, where, and what is allowed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from prolepsis.errors import InconsistentError, InputError
+from prolepsis.knowledge import KnowledgeBase
+
+PREFIX = "@prefix : <https://w3id.org/prolepsis#> .\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (":egg1 a :Eg .", r"s\.ttl:2: no class named 'Eg'; did you mean 'Egg'"),
+        (":egg1 a :Egg ; :mas 0.05 .", r"s\.ttl:2: no property named 'mas'; did you mean 'mass'"),
+        (":egg1 a :Egg ; :on :tabel1 . :table1 a :Table .", r"no individual named 'tabel1'; did you mean 'table1'"),
+        (":egg1 a :Egg ; :mass -0.05 .", r"egg1: mass = -0\.05: must be finite and greater than 0"),
+        (":egg1 a :Egg ; :mass 0 .", r"mass = 0: must be finite and greater than 0"),
+        (':egg1 a :Egg ; :mass "nan" .', r"mass = nan: must be finite"),
+        (':egg1 a :Egg ; :mass "inf" .', r"mass = inf: must be finite"),
+        (":egg1 a :Egg ; :friction -1 .", r"friction = -1: must be finite and greater than 0"),
+        (':egg1 a :Egg ; :mass "5 N" .', r"mass = '5 N': unit 'N' does not fit: a unit such as 'kg'"),
+        (':egg1 a :Egg ; :mass "5 stone" .', r"no unit 'stone'"),
+        (":yolk1 a :EggYolk .", r"yolk1 is part of nothing: EggYolk must be a part of a Egg"),
+        (":y a :Egg .", r"y is the name of a property"),
+        (":table1 a :Table ; :hasPart :yolk . :yolk a :EggYolk .", r"yolk is a part of table1, which is no Egg"),
+        (":a a :Egg ; :hasPart :s . :b a :Egg ; :hasPart :s . :s a :EggShell .", r"s has two wholes: a and b"),
+        (":a a :Block ; :hasPart :b . :b a :Block ; :hasPart :a .", r"is a part of itself: a is part of b"),
+        (":egg1 a :Egg ; :mass 0.05 , 0.06 .", r"egg1 has two values of mass"),
+        (":egg1 a :Egg\n:floor a :Floor .", r"s\.ttl:\d: Turtle syntax"),
+    ],
+)
+def test_a_bad_situation_is_refused(tmp_path: Path, text: str, message: str) -> None:
+    path = tmp_path / "s.ttl"
+    path.write_text(PREFIX + text)
+    with pytest.raises(InputError, match=message):
+        KnowledgeBase.load(path)
+
+
+def test_a_contradiction_names_the_axioms_that_clash(tmp_path: Path) -> None:
+    path = tmp_path / "s.ttl"
+    path.write_text(PREFIX + ":egg1 a :Egg , :ForceLevel .")
+    with pytest.raises(InconsistentError) as caught:
+        KnowledgeBase.load(path)
+    message = str(caught.value)
+    assert "egg1 is an Egg" in message and "egg1 is a ForceLevel" in message and "s.ttl:2" in message
+    assert message.count(";") == 3

@@ -1,0 +1,61 @@
+"""Bad scenario files are refused with what is wrong, where, and what is allowed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from prolepsis.errors import InputError
+from prolepsis.scenario import Scenario
+from prolepsis.terms import Term
+
+GOOD = 'situation = "s.ttl"\nplan = "close(hand1, Force)"\n[parameters]\nForce = { value = 20, unit = "N" }\n'
+
+
+def write(folder: Path, text: str) -> Path:
+    """Return a scenario file beside a situation."""
+    (folder / "s.ttl").write_text("@prefix : <https://w3id.org/prolepsis#> . :hand1 a :Gripper .")
+    path = folder / "scenario.toml"
+    path.write_text(text)
+    return path
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("plan =", "plan : ", r"scenario\.toml:2: TOML syntax"),
+        ("plan =", "plam =", r"unknown key 'plam'; known: situation, plan|the key 'plan' is missing"),
+        ("s.ttl", "t.ttl", r"there is no file .*t\.ttl"),
+        ('"N"', '"stone"', r"parameter Force: no unit 'stone'"),
+        ("Force =", "Level =", r"the plan's variable Force has no value"),
+        ("hand1, Force", "hand1, 3", r"the plan has no variable Force"),
+        ("[parameters]", "duration = 0\n[parameters]", r"duration must be a finite number of seconds greater than 0"),
+        ("[parameters]", "seed = 1.5\n[parameters]", r"seed = 1\.5"),
+        ("20", "nan", r"parameter Force must be finite"),
+        ("hand1, Force)", "hand1, Force", r"plan"),
+    ],
+)
+def test_a_bad_scenario_is_refused(tmp_path: Path, old: str, new: str, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        Scenario.load(write(tmp_path, GOOD.replace(old, new)))
+
+
+def test_settings_match_without_regard_to_case_and_in_the_units_of_the_file(tmp_path: Path) -> None:
+    path = write(tmp_path, GOOD)
+    assert Scenario.load(path, {"force": "25"}).bound_plan() == Term("close", ("hand1", 25.0))
+    assert Scenario.load(path, {"Force": "0.1 kN"}).bound_plan() == Term("close", ("hand1", 100.0))
+    assert Scenario.load(path, {"Force": "force7"}).bound_plan() == Term("close", ("hand1", "force7"))
+    assert Scenario.load(path, {"hand1.friction": "0.3"}).knowledge == {"hand1.friction": "0.3"}
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        ({"Fource": "25"}, r"no parameter named 'Fource'; did you mean 'Force'"),
+        ({"Force": "25 kg"}, r"unit 'kg' does not fit: a unit such as 'N'"),
+    ],
+)
+def test_a_bad_setting_is_refused(tmp_path: Path, settings: dict[str, str], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        Scenario.load(write(tmp_path, GOOD), settings)
