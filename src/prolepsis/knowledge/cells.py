@@ -3,7 +3,7 @@
 A class such as "breaks at 100 N or less" splits the forces into two cells. Each cell becomes a class of value
 objects, the data property becomes an object property to them, and the axioms say that the cells are disjoint
 and exhaustive. That is exact for restrictions on values, it keeps the reasoner away from the data ranges that
-pyhermit 0.2.3 leaves out of the left-hand side of a definition (pinned by a test), and two situations that
+pyhermit 0.2.3 leaves out of the left-hand side of a definition, and two situations that
 differ only in numbers look the same to it, so its answer is reused.
 """
 

@@ -57,7 +57,7 @@ def denials(probes: tuple[Probe, ...]) -> tuple[Axiom, ...]:
     """Return axioms that deny all probes.
 
     pyhermit 0.2.3 searches for minutes when a complement is asserted of an individual, and for milliseconds when
-    a named class that is disjoint with the denied one is; a test pins that both say the same.
+    a named class that is disjoint with the denied one is.
     """
     # Who does not belong to a class does not belong to its subclasses either.
     denied = {(p.individual, p.class_iri) for p in probes}
@@ -200,7 +200,7 @@ def entailed_probes(
     Forward chaining finds what follows step by step. One consistency check then certifies that nothing else
     does: all other probes can be denied together, and every class can have an individual. If it fails, the
     reasoner looks for what else follows by denying halves. (pyhermit 0.2.3 answers such a check in
-    milliseconds, but its own realization does not end on this ontology; a test pins both.)
+    milliseconds, but its own realization does not end on this ontology.)
     """
     axioms = terms + facts
     found = chain(axioms)
