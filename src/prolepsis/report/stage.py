@@ -31,6 +31,9 @@ COLOURS = {
 MOVED = 1e-3
 """A thing that goes less far than this [m] is scenery and does not draw the camera."""
 
+MARGIN = 1.04
+"""How much farther the camera stands than what moves needs [1]."""
+
 LIGHT_DISTANCE = 8.0
 """Distance of the lights from the middle of the scene, in its extents [1]."""
 
@@ -94,14 +97,25 @@ class Stage:
         radius = float(np.linalg.norm(high - low)) / 2
         self.model.stat.extent = max(radius, 0.2)
         self.model.stat.center = (low + high) / 2
-        narrow = min(1.0, self.width / self.height)
         self.model.light_pos = self.model.stat.center - LIGHT_DISTANCE * self.model.stat.extent * self.model.light_dir
         camera: Any = mujoco.MjvCamera()
         camera.type = mujoco.mjtCamera.mjCAMERA_FREE.value
         camera.lookat = (low + high) / 2
-        camera.distance = 1.05 * radius / (narrow * np.sin(np.radians(VIEW_ANGLE / 2)))
+        camera.distance = MARGIN * self._distance(low, high, azimuth, elevation)
         camera.azimuth, camera.elevation = azimuth, elevation
         return camera
+
+    def _distance(self, low: FloatArray, high: FloatArray, azimuth: float, elevation: float) -> float:
+        """Return from how far [m] the box from ``low`` to ``high`` just fills the picture."""
+        turn, tilt = np.radians(azimuth), np.radians(elevation)
+        forward = np.array([np.cos(tilt) * np.cos(turn), np.cos(tilt) * np.sin(turn), np.sin(tilt)])
+        right = np.array([np.sin(turn), -np.cos(turn), 0.0])
+        signs = np.stack(np.meshgrid([-1, 1], [-1, 1], [-1, 1]), axis=-1).reshape(8, 3)
+        corners = signs * (high - low) / 2
+        half = np.tan(np.radians(VIEW_ANGLE / 2))
+        across = np.abs(corners @ right) * self.height / self.width
+        upward = np.abs(corners @ np.cross(right, forward))
+        return float((np.maximum(across, upward) / half - corners @ forward).max())
 
     def _bounds(self, ticks: list[int]) -> tuple[FloatArray, FloatArray]:
         """Return the lower and upper corner of what moves [m]; a few far splinters are left out."""
