@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import mujoco
@@ -11,8 +11,10 @@ import numpy as np
 
 from prolepsis.errors import InvalidSimulationError
 from prolepsis.log import Action, Detachments, Log
+from prolepsis.monitors.channels import Channels, Watched, chosen_monitors
 from prolepsis.monitors.recorder import Recorder
 from prolepsis.phenomena.breaking import Breaking, Detachment, strength_of
+from prolepsis.phenomena.wetting import Wetting
 from prolepsis.programs.commands import Begin, Command, End, Sense
 from prolepsis.programs.program import Program
 from prolepsis.robots.hand import HAND
@@ -20,7 +22,6 @@ from prolepsis.robots.hand_control import HandControl
 from prolepsis.scene.world import MAX_STEP, World
 from prolepsis.state import State
 from prolepsis.terms import Term
-from prolepsis.things import Triple
 
 TICK = 1.0e-3
 """The clock of the log [s]."""
@@ -40,6 +41,7 @@ def simulate(
     seed: int = 1,
     draw: bool = False,
     max_step: float = MAX_STEP,
+    monitors: Mapping[str, Sequence[str]] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> Log:
     """Run a program in a world and return the log.
@@ -51,6 +53,7 @@ def simulate(
         seed: Seed of everything that is drawn.
         draw: Draw uncertain strengths from their distributions instead of taking the means.
         max_step: Longest substep [s]; phenomena ask for shorter ones.
+        monitors: Thing to the names of what is logged of it; the defaults for things that are not named.
         progress: Called now and then with the simulated time [s].
 
     Raises:
@@ -71,11 +74,9 @@ def simulate(
         if "Gripper" in thing.roles
     }
     recorder = Recorder()
-    channels: dict[str, list[float]] = {
-        f"{phenomenon.thing.name}.{column}": [] for phenomenon in phenomena for column in ("load", "force")
-    }
-    for name in hands:
-        channels |= {f"{name}.{column}": [] for column in ("opening", "gripper", "pad_force", "command")}
+    wetting = Wetting(state)
+    channels = Channels(chosen_monitors(things, monitors))
+    watched = Watched(state=state, hands=hands, breaking={each.thing.name: each for each in phenomena})
     detachments: list[tuple[int, Detachment]] = []
     running: dict[Term, int] = {}
     actions: list[Action] = []
@@ -104,10 +105,7 @@ def simulate(
 
         recorder.note_version(state)
         recorder.tick(state)
-        for name, hand in hands.items():
-            row = (hand.opening, float(hand.motion), hand.pad_force, hand.command)
-            for column, value in zip(("opening", "gripper", "pad_force", "command"), row, strict=True):
-                channels[f"{name}.{column}"].append(value)
+        channels.tick(watched)
 
         step = min((phenomenon.substep(state) for phenomenon in phenomena), default=MAX_STEP)
         step = min(step, max_step)
@@ -131,9 +129,7 @@ def simulate(
                         hand.bind(state)
         if int(state.data.warning.number.sum()):
             _refuse(state, tick)
-        for phenomenon in phenomena:
-            channels[f"{phenomenon.thing.name}.load"].append(phenomenon.load)
-            channels[f"{phenomenon.thing.name}.force"].append(phenomenon.force)
+        wetting.tick(state)
         if hands:
             contacts = state.contact_forces()
             for hand in hands.values():
@@ -151,22 +147,14 @@ def simulate(
         carrier=carriers,
         contacts=recorder.contact_columns(TICK),
         detachments=_detachment_columns(detachments),
-        channels={name: np.asarray(values) for name, values in channels.items()},
+        channels=channels.columns(),
         actions=tuple(sorted((a for a in actions if a.end > a.start), key=lambda a: (a.start, -a.end, str(a.term)))),
         gravity=world.scene.gravity,
     )
 
 
 def _sense(state: State, hands: dict[str, HandControl], time: float) -> Sense:
-    def place(name: str) -> Triple:
-        i = next(k for k, thing in enumerate(state.world.scene.things) if thing.name == name)
-        carrier = int(state.carrier[i])
-        if carrier < 0:
-            return state.world.scene.things[i].position
-        x, y, z = state.data.body(state.world.scene.things[carrier].name).xpos
-        return (float(x), float(y), float(z))
-
-    return Sense(time=time, hands={name: hand.sense() for name, hand in hands.items()}, place=place)
+    return Sense(time=time, hands={name: hand.sense() for name, hand in hands.items()}, place=state.place)
 
 
 def _note(command: Command, tick: int, running: dict[Term, int], actions: list[Action]) -> None:

@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 
 from prolepsis.scene.world import World, add_geom
-from prolepsis.things import FloatArray, IntArray
+from prolepsis.things import FloatArray, IntArray, Triple
 
 
 @dataclass(kw_only=True, slots=True)
@@ -45,6 +45,8 @@ class State:
     """Index of the thing that each MuJoCo body is, -1 for none, shape (nbody,)."""
     version: int = 0
     """Counts the rebuilt models."""
+    attributes: dict[tuple[str, str], float] = field(default_factory=dict[tuple[str, str], float])
+    """What controllers have changed: (thing, attribute) to its value."""
 
     @classmethod
     def of(cls, world: World) -> State:
@@ -78,6 +80,53 @@ class State:
         """Bring the map from bodies to things up to date after the model has changed."""
         index = {thing.name: i for i, thing in enumerate(self.world.scene.things)}
         self.body_thing = np.array([index.get(self.model.body(b).name, -1) for b in range(self.model.nbody)])
+
+    def attribute(self, name: str, attribute: str) -> float:
+        """Return an attribute of a thing: as changed by a controller, as known at the start, or 0."""
+        changed = self.attributes.get((name, attribute))
+        if changed is not None:
+            return changed
+        return float(self.world.scene.thing(name).quantities.get(attribute, 0.0))
+
+    def set_attribute(self, name: str, attribute: str, value: float) -> None:
+        """Change an attribute of a thing."""
+        self.attributes[name, attribute] = value
+
+    def set_friction(self, index: int, friction: float) -> None:
+        """Give a thing's surface another sliding friction [1], for the rest of the run."""
+        thing = self.world.scene.things[index]
+        for k in range(len(thing.shape.geoms)):
+            name = f"{thing.name}/{k}"
+            kept, now = self.spec.geom(name), self.model.geom(name)
+            kept.friction = [friction, *kept.friction[1:]]
+            kept.priority = self.world.ranks[friction]
+            now.friction[0], now.priority[0] = friction, kept.priority
+            for pair in self.spec.pairs:
+                if name in (pair.geomname1, pair.geomname2):
+                    slippery = min(friction, float(pair.friction[0]))
+                    pair.friction = [slippery, slippery, *pair.friction[2:]]
+                    self.model.pair(pair.name).friction[:2] = slippery
+
+    def place(self, name: str) -> Triple:
+        """Return the position of a thing [m]; what is no body any more is where it was at the start."""
+        scene = self.world.scene
+        i = scene.index(name)
+        carrier = int(self.carrier[i])
+        if carrier < 0:
+            return scene.things[i].position
+        body = self.data.body(scene.things[carrier].name)
+        x, y, z = compose_pose(np.array([*body.xpos, *body.xquat]), self.offsets[i])[:3]
+        return (float(x), float(y), float(z))
+
+    def velocity(self, name: str) -> FloatArray:
+        """Return the velocity of a thing's carrier [m/s], shape (3,); zeros if it has none."""
+        scene = self.world.scene
+        carrier = int(self.carrier[scene.index(name)])
+        result = np.zeros(6)
+        if carrier >= 0:
+            body = self.model.body(scene.things[carrier].name).id
+            mujoco.mj_objectVelocity(self.model, self.data, mujoco.mjtObj.mjOBJ_XBODY, body, result, 0)
+        return result[3:]
 
     def contact_forces(self) -> ContactForces:
         """Return the active contacts of the last substep."""

@@ -88,6 +88,7 @@ class Breaking:
         names = {t.name: i for i, t in enumerate(things)}
         shell = next(t for t in things if t.whole == thing.name and "shellThickness" in t.quantities)
         self.thing = thing
+        self.shell_name = shell.name
         self.index = names[thing.name]
         self.pieces = [names[f"{shell.name}/piece{k}"] for k in range(PIECE_COUNT)]
         self.blobs = [
@@ -149,6 +150,8 @@ class Breaking:
             if total >= fragment.calm:
                 detached += self._check(state, body, fragment)
         if detached:
+            state.set_attribute(self.thing.name, "broken", 1.0)
+            state.set_attribute(self.shell_name, "broken", 1.0)
             self._fall_apart(state)
         return detached
 

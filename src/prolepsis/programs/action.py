@@ -142,4 +142,3 @@ def _finite(number: float, where: str) -> float:
     if not math.isfinite(number):
         raise PlanError(f"{where} must be finite, not {number:g}")
     return number
-

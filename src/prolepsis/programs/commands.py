@@ -24,11 +24,13 @@ class BaseTarget:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class CloseGripper:
-    """Close slowly until contact, then raise the force."""
+    """Close quickly to a gap, slowly from there until contact, then raise the force."""
 
     hand: str
     force: float
     """Force of each pad [N]."""
+    width: float
+    """Gap down to which nothing is expected between the pads [m]."""
     speed: float
     """Speed of each finger before contact [m/s]."""
 

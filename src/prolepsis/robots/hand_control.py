@@ -14,6 +14,8 @@ TOUCH_FORCE = 0.6
 """Greatest motor force before contact [N]: too weak to push away what is touched first."""
 SPEED_LIMIT = 0.05
 """Finger speed at which the closing force has tapered to zero [m/s]: no slamming when what is held gives way."""
+FAST_SPEED = 0.1
+"""Speed of the gap where nothing is expected between the pads [m/s]."""
 RAMP_TIME = 0.4
 """Time in which the force grows from touch to command [s], long against the 5 ms of the contact's own vibration."""
 SETTLING_TIME = 0.03
@@ -86,6 +88,7 @@ class HandControl:
         elif isinstance(command, CloseGripper):
             self._goal, self.motion, self.command = command, -1, command.force
             self._elapsed, self._still, self._ramp = 0.0, 0.0, None
+            self._width = self.opening
         elif isinstance(command, OpenGripper):
             self._goal, self.command = command, 0.0
             self._width = self.opening
@@ -104,6 +107,9 @@ class HandControl:
             self._move(self._goal, dt)
 
     def _close(self, goal: CloseGripper, dt: float) -> None:
+        if self._ramp is None and not self._elapsed and self._width > goal.width:
+            self._approach(goal.width, FAST_SPEED, dt)
+            return
         force = min(goal.force, self.hand.max_force)
         touch = min(TOUCH_FORCE, force)
         speed = abs(float(self._data.ten_velocity[self._gap])) / 2
@@ -125,11 +131,16 @@ class HandControl:
         self._data.ctrl[self._motor] = -now
 
     def _move(self, goal: OpenGripper | None, dt: float) -> None:
-        if goal is not None:
-            step = goal.speed * dt
-            self._width += float(np.clip(goal.width - self._width, -step, step))
-            if self._width == goal.width and abs(self.opening - goal.width) < WIDTH_TOLERANCE:
-                self.motion = 0
+        if goal is None:
+            self._approach(self._width, FAST_SPEED, dt)
+            return
+        self._approach(goal.width, goal.speed, dt)
+        if self._width == goal.width and abs(self.opening - goal.width) < WIDTH_TOLERANCE:
+            self.motion = 0
+
+    def _approach(self, width: float, speed: float, dt: float) -> None:
+        """Move the pads towards a gap of ``width`` [m] at ``speed`` [m/s]."""
+        self._width += float(np.clip(width - self._width, -speed * dt, speed * dt))
         self._set_gains(-self.hand.opening_gain, -self.hand.opening_damping)
         self._data.ctrl[self._motor] = self.hand.opening_gain * (self._width - self._first_opening)
 

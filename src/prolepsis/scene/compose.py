@@ -41,6 +41,8 @@ COLOURS = {
     "Sponge": (0.95, 0.83, 0.30, 1.0),
 }
 """Colours of classes, for pictures only."""
+ATTRIBUTES = {"wet": "WetThing", "dirty": "DirtyThing", "broken": "BrokenThing"}
+"""Attributes that controllers may change, and the class of what has them at the start."""
 GRIPPER_SHAPE = "parallelGripper"
 STUFFS = {"EggYolk": "yolk", "EggWhite": "white"}
 """Stuffs that are modelled as balls inside an egg, and their sort."""
@@ -91,7 +93,12 @@ def _things_of(
             opening=opening,
             friction=kb.quantity(name, "friction"),
         )
-        return (replace(hand[0], roles=thing.roles, kind=thing.kind), *hand[1:])
+        whole = replace(
+            hand[0], roles=thing.roles, kind=thing.kind, quantities={**thing.quantities, **hand[0].quantities}
+        )
+        slippery = thing.quantities.get("frictionWhenWet")
+        known = {"frictionWhenWet": slippery} if slippery is not None else {}
+        return (whole, *(replace(part, quantities={**part.quantities, **known}) for part in hand[1:]))
     if kb.is_a(name, "Egg"):
         return _egg(kb, thing)
     return (thing,)
@@ -104,7 +111,10 @@ def _thing(kb: KnowledgeBase, name: str) -> Thing:
     kind = kb.kind(name)
     shape = str(kb.value(name, "shape").value)
     quantities = {p: float(k.value) for p, k in kb.quantities(name).items() if isinstance(k.value, float)}
-    quantities["surfaceFriction"] = quantities["friction"]
+    quantities |= {attribute: 1.0 for attribute, cls in ATTRIBUTES.items() if kb.is_a(name, cls)}
+    wet = kb.default_of((f"Wet{kind}",), "friction") if f"Wet{kind}" in kb.vocabulary.classes else None
+    if wet is not None and isinstance(wet[1].value, float):
+        quantities["frictionWhenWet"] = wet[1].value
     fixed = kb.is_a(name, "Furniture")
     if shape == GRIPPER_SHAPE:
         geoms = ()

@@ -31,6 +31,10 @@ class Scene:
                 return thing
         raise UnknownNameError.of("object", name, (t.name for t in self.things if t.whole is None))
 
+    def index(self, name: str) -> int:
+        """Return the position of the thing called ``name`` among ``things``."""
+        return self.things.index(self.thing(name))
+
     def parts(self, name: str) -> tuple[Thing, ...]:
         """Return the direct parts of a thing."""
         return tuple(thing for thing in self.things if thing.whole == name)

@@ -98,7 +98,10 @@ def friction_of(thing: Thing) -> float:
 
 def _friction_ranks(scene: Scene) -> dict[float, int]:
     """Return a MuJoCo priority for each friction: a contact is as slippery as its more slippery surface."""
-    values = sorted({friction_of(thing) for thing in scene.things if thing.shape.geoms}, reverse=True)
+    surfaces = [thing for thing in scene.things if thing.shape.geoms]
+    values = {friction_of(thing) for thing in surfaces}
+    values |= {thing.quantities["frictionWhenWet"] for thing in surfaces if "frictionWhenWet" in thing.quantities}
+    values = sorted(values, reverse=True)
     return {value: rank for rank, value in enumerate(values)}
 
 

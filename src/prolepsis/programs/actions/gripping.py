@@ -19,26 +19,31 @@ TIMEOUT = 8.0
 """A closing that has not ended by then has nothing to hold on to [s]."""
 
 
-@action(HAND, FORCE)
-def close(scene: Scene, sense: Sense, *, hand: Thing, force: float) -> Behaviour:
-    """Close the gripper slowly until contact, then raise the force to the given one."""
-    del scene
+def close_from(hand: Thing, width: float, force: float, sense: Sense) -> Behaviour:
+    """Close quickly to ``width`` [m], slowly until contact, then raise the force to ``force`` [N]."""
     deadline = sense.time + TIMEOUT
     speed = min(max(SPEED_PER_FORCE * force, SLOWEST), FASTEST)
-    sense = yield (CloseGripper(hand=hand.name, force=force, speed=speed),)
+    sense = yield (CloseGripper(hand=hand.name, force=force, width=width, speed=speed),)
     while sense.hands[hand.name].motion != 0 and sense.time < deadline:
         sense = yield ()
     return sense
 
 
+@action(HAND, FORCE)
+def close(scene: Scene, sense: Sense, *, hand: Thing, force: float) -> Behaviour:
+    """Close the gripper slowly until contact, then raise the force to the given one."""
+    del scene
+    return (yield from close_from(hand, ROBOT.max_opening, force, sense))
+
+
 @action(HAND, OBJECT, FORCE, check=within_workspace)
 def grasp(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, force: float) -> Behaviour:
-    """Reach for the object, then close the gripper with the given force."""
+    """Reach for the object unless the hand is there, then close the gripper with the given force."""
+    width = grasping_width(hand, object)
     way = np.asarray(sense.place(object.name)) - np.asarray(sense.hands[hand.name].position)
-    gap = sense.hands[hand.name].opening - grasping_width(hand, object)
-    if np.abs(way).max() > CLEARANCE or gap < 0 or gap > 2 * CLEARANCE:
+    if np.abs(way).max() > CLEARANCE or sense.hands[hand.name].opening < width:
         sense = yield from reach(scene, sense, hand=hand, object=object, speed=0.25)
-    return (yield from close(scene, sense, hand=hand, force=force))
+    return (yield from close_from(hand, width + CLEARANCE, force, sense))
 
 
 @action(HAND)

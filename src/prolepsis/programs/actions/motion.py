@@ -16,7 +16,9 @@ from prolepsis.things import Thing, Triple
 STANDOFF = 0.08
 """Before the last straight stretch, the hand stops this far from the object [m]."""
 CLEARANCE = 0.006
-"""The gap exceeds what is to be grasped by this much [m], so that the guarded closing is short."""
+"""The guarded closing begins when the gap exceeds what is to be grasped by this much [m]."""
+MARGIN = 0.02
+"""The gap with which the hand reaches exceeds what is to be grasped by this much [m]."""
 ARRIVED = 1.0e-4
 """Shorter ways are not worth a move [m]."""
 TICK = 1.0e-3
@@ -96,10 +98,11 @@ def within_workspace(scene: Scene, *, hand: Thing, object: Thing, **_: object) -
 
 @action(HAND, OBJECT, SPEED, check=within_workspace)
 def reach(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, speed: float) -> Behaviour:
-    """Open the gripper a little wider than the object and move it around the object's centre."""
+    """Open the gripper wider than the object, if it is not, and move it around the object's centre."""
     del scene
-    width = min(grasping_width(hand, object) + CLEARANCE, ROBOT.max_opening)
-    sense = yield from open_to(hand, width, sense)
+    width = min(grasping_width(hand, object) + MARGIN, ROBOT.max_opening)
+    if sense.hands[hand.name].opening < width:
+        sense = yield from open_to(hand, width, sense)
     way = np.asarray(sense.place(object.name)) - np.asarray(sense.hands[hand.name].position)
     forward = rotate(hand.orientation, (1.0, 0.0, 0.0))
     ahead = float(way @ forward)
