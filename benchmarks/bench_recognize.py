@@ -31,7 +31,7 @@ def busy_log(seconds: float, *, seed: int = 1) -> Log:
     pairs: list[tuple[int, int, float]] = []
     box = Shape(geoms=(Geom(type="box", size=(0.05, 0.05, 0.05)),))
     ball = Shape(geoms=(Geom(type="sphere", size=(0.03, 0.0, 0.0)),))
-    time_of = np.arange(ticks) * DT
+    time_of: FloatArray = np.arange(ticks, dtype=np.float64) * DT
     for body in range(1, BODIES + 1):
         column, level = divmod(body - 1, STACK)
         place = np.array([0.4 * column, 0.0, 0.05 + 0.1 * level])

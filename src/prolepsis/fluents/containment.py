@@ -13,7 +13,7 @@ from prolepsis.fluents.intervals import close_gaps, debounce, drop_short, hyster
 from prolepsis.fluents.observation import Observation, is_held_from_outside
 from prolepsis.fluents.registry import fluent
 from prolepsis.fluents.shapes_in_time import RigidShape, rigid_shapes
-from prolepsis.fluents.support import support_runs
+from prolepsis.fluents.support import support_runs, supporters
 from prolepsis.things import BoolArray, FloatArray, IntArray
 from prolepsis.timeline import Fact
 
@@ -103,11 +103,24 @@ def contents(observation: Observation) -> tuple[Content, ...]:
         for hollow in hollows:
             for shape in candidates:
                 unit = int(observation.unit[shape.body])
-                depths = depths_within(observation, hollow, shape) if unit != container else None
+                if unit == container:
+                    continue
+                depths = depths_within(observation, hollow, shape, _borne_by_loose(observation, container, unit))
                 if depths is not None:
                     inside.setdefault(unit, []).append(depths)
         found += _borne(observation, container, inside)
     return tuple(found)
+
+
+def _borne_by_loose(observation: Observation, container: int, unit: int) -> BoolArray:
+    """Return when the container, or something loose that may be in it, bears a unit, shape (T,)."""
+    things = observation.log.things
+    borne = [
+        stretches
+        for below, stretches in observation.of(supporters).get(unit, [])
+        if below == container or not things[below].fixed
+    ]
+    return mask_of(union(borne), observation.tick_count)
 
 
 def _may_be_content(observation: Observation, shape: RigidShape) -> bool:

@@ -45,7 +45,8 @@ def detached_rows(observation: Observation) -> dict[int, IntArray]:
     things = observation.log.things
     index = {thing.name: i for i, thing in enumerate(things)}
     found: dict[int, list[int]] = {}
-    for row, thing in enumerate(observation.log.detachments.thing.tolist()):
+    for row, detached in enumerate(observation.log.detachments.thing.tolist()):
+        thing = int(detached)
         whole = things[thing].whole
         while whole is not None and whole in index:
             thing = index[whole]

@@ -47,8 +47,16 @@ class Depths:
         return (float(self.share[seen].max()), float(self.depth[seen].max())) if seen.any() else None
 
 
-def depths_within(observation: Observation, hollow: RigidShape, shape: RigidShape) -> Depths | None:
-    """Return how deep ``shape`` lay in ``hollow``, or None if it never was inside."""
+def depths_within(observation: Observation, hollow: RigidShape, shape: RigidShape, borne: BoolArray) -> Depths | None:
+    """Return how deep ``shape`` lay in ``hollow``, or None if it never was inside while it may count as contained.
+
+    Args:
+        observation: The log.
+        hollow: The shape that may have depressions.
+        shape: The shape that may be in one.
+        borne: When something that may be the container or in it bears the body, shape (T,). Before it is
+            borne or at rest in the hollow, nothing is looked at.
+    """
     both = hollow.during & shape.during
     step = ticks_of(LOOK_STEP, observation.dt)
     looked = np.arange(0, observation.tick_count, step)
@@ -58,6 +66,8 @@ def depths_within(observation: Observation, hollow: RigidShape, shape: RigidShap
     points, weights = samples(shape.solids)
     middle = weights @ points
     near = _between_bounds(observation, hollow, shape, middle, looked)
+    at_rest = _at_rest(observation, hollow.body, shape, middle, both) if near.any() else runs(near)
+    near = _since_anchored(near, looked, mask_of(at_rest, observation.tick_count) | borne)
     if not near.any():
         return None
     viewer = _Viewer(observation=observation, hollow=hollow, shape=shape, points=points, weights=weights)
@@ -68,7 +78,8 @@ def depths_within(observation: Observation, hollow: RigidShape, shape: RigidShap
         return None
     seen = np.zeros(observation.tick_count, dtype=np.bool_)
     for first, last in runs(inside):
-        begin = viewer.first_inside(looked[first - 1] + 1 if first else looked[first], int(looked[first]))
+        before = int(looked[first - 1]) + 1 if first and near[first - 1] else int(looked[first])
+        begin = viewer.first_inside(before, int(looked[first]))
         limit = int(looked[last]) if last < len(looked) else observation.tick_count
         seen[begin : viewer.first_outside(int(looked[last - 1]) + 1, limit)] = True
     return Depths(
@@ -76,7 +87,7 @@ def depths_within(observation: Observation, hollow: RigidShape, shape: RigidShap
         share=share[near],
         depth=depth[near],
         stretches=runs(seen & both),
-        at_rest=_at_rest(observation, hollow.body, shape, middle, both),
+        at_rest=at_rest,
     )
 
 
@@ -157,6 +168,18 @@ def _relative(
 ) -> FloatArray:
     pose, frame = observation.log.poses[ticks, shape.body], observation.log.poses[ticks, host]
     return rotate_back(frame[:, 3:], rotate(pose[:, 3:], middle) + pose[:, :3] - frame[:, :3])
+
+
+def _since_anchored(near: BoolArray, looked: IntArray, anchored: BoolArray) -> BoolArray:
+    """Return ``near`` without what comes before the first anchored tick of each of its runs."""
+    count = np.concatenate(([0], np.cumsum(anchored)))
+    ends = np.append(looked[1:], len(anchored))
+    here = count[ends] > count[looked]
+    found = np.zeros_like(near)
+    for first, last in runs(near).tolist():
+        if here[first:last].any():
+            found[first + int(np.argmax(here[first:last])) : last] = True
+    return found
 
 
 def _at_rest(observation: Observation, host: int, shape: RigidShape, middle: FloatArray, both: BoolArray) -> IntArray:

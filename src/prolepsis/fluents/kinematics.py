@@ -39,6 +39,11 @@ def velocities(observation: Observation) -> FloatArray:
         np.subtract(place[:, 1:], place[:, :-1], out=found[:, :-1])
         found /= observation.dt
         found[:, -1] = found[:, -2]
+        carrier = observation.log.carrier
+        for tick in observation.segments[observation.segments > 1].tolist():
+            # What is carried by another body from here on did not move there.
+            changed = carrier[tick] != carrier[tick - 1]
+            found[changed, tick - 1] = found[changed, tick - 2]
     return found
 
 

@@ -147,8 +147,9 @@ def _report_name(log: Log, thing: int) -> str:
 
 
 def _own_bodies(observation: Observation) -> BoolArray:
-    carrier = observation.log.carrier[observation.segments]
-    return carrier == np.arange(carrier.shape[1])
+    carrier: IntArray = observation.log.carrier[observation.segments]
+    things: IntArray = np.arange(len(observation.log.things), dtype=np.int64)
+    return carrier == things
 
 
 def _piece_masses(observation: Observation) -> FloatArray:

@@ -9,7 +9,7 @@ import numpy as np
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.rigid import multiply, rotate_back
 from prolepsis.fluents.solids import Solid, bounded, matrix
-from prolepsis.things import BoolArray, FloatArray
+from prolepsis.things import BoolArray, FloatArray, IntArray
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -41,7 +41,7 @@ def rigid_shapes(observation: Observation) -> tuple[RigidShape, ...]:
     return tuple(shapes)
 
 
-def _carried(observation: Observation, body: int, candidates: FloatArray) -> tuple[int, ...]:
+def _carried(observation: Observation, body: int, candidates: IntArray) -> tuple[int, ...]:
     pieces = observation.has_role(body, "Piece")
     return tuple(
         int(i)

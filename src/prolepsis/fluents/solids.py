@@ -51,7 +51,8 @@ class Solid:
     @property
     def volume(self) -> float:
         """Volume of the box around the solid [m^3], as a weight."""
-        return float(np.prod(np.ptp(self.corners, axis=0)))
+        extent: FloatArray = self.corners.max(axis=0) - self.corners.min(axis=0)
+        return float(np.prod(extent))
 
     def bounds(self) -> tuple[FloatArray, FloatArray]:
         """Return the least and greatest coordinates in the thing's frame [m], each of shape (3,)."""
@@ -94,7 +95,8 @@ def _ellipsoid(solid: Solid, p: FloatArray) -> FloatArray:
     scaled = p / solid.size
     level = np.sqrt(np.einsum("nc,nc->n", scaled, scaled))
     slope = np.sqrt(np.square(scaled / solid.size).sum(axis=1))
-    return np.where(slope > 1e-12, level * (level - 1.0) / np.maximum(slope, 1e-12), -solid.size.min())
+    deepest = -float(solid.size.min())
+    return np.where(slope > 1e-12, level * (level - 1.0) / np.maximum(slope, 1e-12), deepest)
 
 
 def _cylinder(solid: Solid, p: FloatArray) -> FloatArray:

@@ -55,7 +55,7 @@ def spilling(observation: Observation) -> Iterator[Fact]:
     for stuff, shares in observation.of(blob_shares).items():
         fraction, outside = _share(observation, shares, flowing), _share(observation, shares, lying)
         for start, end in _noticed(observation, fraction):
-            before, after = outside[max(start - 1, 0)], outside[min(end, observation.tick_count - 1)]
+            before, after = float(outside[max(start - 1, 0)]), float(outside[min(end, observation.tick_count - 1)])
             evidence = {"fraction": float(fraction[start:end].max()), "spilled_before": before, "spilled_after": after}
             yield observation.fact("event", "spilling", (observation.log.things[stuff].name,), (start, end), evidence)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-import mujoco
+import mujoco as _mujoco  # pyright: ignore[reportMissingTypeStubs]
 import numpy as np
 
 from prolepsis.errors import InputError, InvalidSimulationError
@@ -13,6 +13,8 @@ from prolepsis.log import Bonds, Contacts, Log
 from prolepsis.monitors.model_things import ModelThings, SceneThings, model_things
 from prolepsis.monitors.touching import ContactRows, contact_rows, merge_rows
 from prolepsis.things import BoolArray, FloatArray, IntArray
+
+mujoco: Any = _mujoco  # without type stubs
 
 _LARGEST = 1e10
 """MuJoCo calls a coordinate beyond this unstable (``mjMAXVAL``)."""
@@ -72,7 +74,7 @@ def read_rollout(model: Any, states: FloatArray, dt: float, scene: SceneThings |
     return Log(
         dt=dt,
         things=found.things,
-        time=np.arange(tick_count) * dt,
+        time=np.arange(tick_count, dtype=np.float64) * dt,
         poses=poses,
         carrier=carrier,
         contacts=contacts,
@@ -158,7 +160,8 @@ def _sticky_rows(
     for a, b in pairs:
         mask = np.zeros(tick_count, dtype=np.bool_)
         mask[contacts.tick[adhesive & (contacts.a == a) & (contacts.b == b)]] = True
-        holder, held = (b, a) if found.things[b].fixed or "Driven" in found.things[b].roles else (a, b)
+        other = found.things[int(b)]
+        holder, held = (int(b), int(a)) if other.fixed or "Driven" in other.roles else (int(a), int(b))
         if not found.things[held].fixed:
             yield from ((holder, held, start, end) for start, end in _stretches(mask))
 
