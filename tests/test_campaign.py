@@ -1,0 +1,46 @@
+"""A sweep keeps the order of its values, and one run that fails does not spoil the others."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+from prolepsis.campaign import sweep
+from prolepsis.cli import main
+
+EXAMPLES = Path(__file__).parent.parent / "examples"
+
+
+@pytest.fixture
+def scenario(tmp_path: Path) -> Path:
+    shutil.copy(EXAMPLES / "dropped_egg.ttl", tmp_path)
+    file = tmp_path / "short.toml"
+    file.write_text('situation = "dropped_egg.ttl"\nplan = "wait(Time)"\nduration = 0.05\n[parameters]\nTime = 0.03\n')
+    return file
+
+
+def test_rows_stand_in_the_order_of_the_values_and_a_failing_run_is_a_row(scenario: Path) -> None:
+    outcomes = sweep(scenario, {"Time": [0.04, -1.0, 0.02]}, ask="occurs(waiting(T), _)")
+    assert [row.values["Time"] for row in outcomes.rows] == [0.04, -1.0, 0.02]
+    assert [row.answers for row in outcomes.rows] == [[{"T": 0.04}], None, [{"T": 0.02}]]
+    failed = outcomes.rows[1]
+    assert failed.error is not None
+    assert "wait" in failed.error
+    assert not failed.invalid
+
+
+def test_the_command_prints_a_row_for_each_value(scenario: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    arguments = ["sweep", str(scenario), "--over", "time=0.01,0.02", "--ask", "occurs(waiting(0.02), T)"]
+    assert main([*arguments, "--json"]) == 0
+    rows = [json.loads(line) for line in capfd.readouterr().out.splitlines()]
+    assert [row["values"] for row in rows] == [{"time": "0.01"}, {"time": "0.02"}]
+    assert [len(row["answers"]) for row in rows] == [0, 1]
+    assert main(["sweep", str(scenario), "--over", "Time=0.01", "--ask", "occurs(falling(egg1), T)"]) == 1
+    assert [line.split() for line in capfd.readouterr().out.splitlines()] == [
+        ["Time", "outcome"],
+        ["0.01", "done"],
+        ["no"],
+    ]
