@@ -6,7 +6,8 @@
      ├── InputError                what the user gave is wrong (exit status 2)
      │    ├── UnknownNameError     a name that is not known; the message lists the known ones
      │    ├── KnowledgeError       ontology or situation: syntax, units, values, structure
-     │    │    └── InconsistentError   the axioms clash; the few that do are named
+     │    │    ├── InconsistentError   the axioms clash; the few that do are named
+     │    │    └── UndecidedError      the reasoner ran out of time
      │    ├── ScenarioError        scenario file: syntax, missing or extra keys
      │    ├── PlanError            a plan that cannot be read or carried out
      │    ├── GoalError            a query: syntax, unknown predicate, not permitted
@@ -57,6 +58,10 @@ class KnowledgeError(InputError):
 
 class InconsistentError(KnowledgeError):
     """The knowledge base contradicts itself."""
+
+
+class UndecidedError(KnowledgeError):
+    """The reasoner ran out of time, so it is not known whether the knowledge base contradicts itself."""
 
 
 class ScenarioError(InputError):

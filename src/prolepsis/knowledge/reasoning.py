@@ -1,40 +1,28 @@
 """OWL DL reasoning: is the knowledge base consistent, and which classes does each individual belong to?
 
-This is the one place that knows pyhermit. Importing it takes longer than all the rest of loading a knowledge
-base, so an answer is kept in the user's cache folder under the hash of the axioms and read back from there.
+Importing the reasoner takes longer than all the rest of loading a knowledge base, so an answer is kept under
+the hash of the axioms, and read back from there.
 """
 
 from __future__ import annotations
 
 import hashlib
-import json
-import os
 import re
-import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.metadata import version
-from pathlib import Path
-from typing import TYPE_CHECKING, cast
 
 from rdflib import OWL, RDF
 
-from prolepsis.errors import InconsistentError
+from prolepsis.errors import InconsistentError, UndecidedError
 from prolepsis.knowledge.axioms import Axiom, assertions, terminology
 from prolepsis.knowledge.chaining import chain
 from prolepsis.knowledge.conflict import smallest_conflict
+from prolepsis.knowledge.kept import keep_answer, read_answer
+from prolepsis.knowledge.reasoner import LIMIT_VARIABLE, is_consistent
 from prolepsis.knowledge.situation import Situation
 from prolepsis.knowledge.turtle import Document
 from prolepsis.knowledge.vocabulary import Vocabulary
-
-if TYPE_CHECKING:
-    from pyhermit import Reasoner
-
-CACHE_VARIABLE = "PROLEPSIS_CACHE"
-"""Environment variable: folder of the kept answers, or empty to keep none."""
-
-TIME_LIMIT = 10.0
-"""After this many seconds without a contradiction, none is assumed [s]."""
 
 INCONSISTENT = "inconsistent"
 EMPTY_CLASS = "empty class"
@@ -99,6 +87,7 @@ def infer_types(documents: tuple[Document, ...], vocabulary: Vocabulary, situati
 
     Raises:
         InconsistentError: If the axioms contradict each other, or a class can have no individual.
+        UndecidedError: If the reasoner runs out of time. What it did not decide is never taken as answered.
     """
     terms, cells = terminology(documents, vocabulary)
     facts = assertions(situation, vocabulary, cells, terms)
@@ -159,11 +148,6 @@ def representatives(situation: Situation, facts: tuple[Axiom, ...]) -> Mapping[s
     return {members[0]: tuple(members) for members in groups.values()}
 
 
-def ontology_text(axioms: tuple[Axiom, ...]) -> str:
-    """Return the axioms as one ontology in functional syntax."""
-    return "Ontology(\n" + "\n".join(axiom.text for axiom in axioms) + "\n)\n"
-
-
 def about(facts: tuple[Axiom, ...], situation: Situation, alike: Mapping[str, tuple[str, ...]]) -> tuple[Axiom, ...]:
     """Return the facts without the individuals that another one stands for."""
     left_out = {f"<{situation.iris[name]}>" for members in alike.values() for name in members[1:]}
@@ -184,11 +168,11 @@ def kept_answer(
     """
     asked = "\n".join(a.text for a in (*terms, *facts, *witnesses, *denials(probes)))
     key = hashlib.sha256(f"1 pyhermit {version('pyhermit')}\n{asked}".encode()).hexdigest()
-    kept = _read_answer(key)
+    kept = read_answer(key)
     if kept is not None:
         return kept if isinstance(kept, str) else tuple(probes[i] for i in kept)
     answer = entailed_probes(terms, facts, witnesses, probes)
-    _keep_answer(key, answer if isinstance(answer, str) else [probes.index(probe) for probe in answer])
+    keep_answer(key, answer if isinstance(answer, str) else [probes.index(probe) for probe in answer])
     return answer
 
 
@@ -224,69 +208,13 @@ def entailed_probes(
     return follows + search(others)
 
 
-def _open(text: str) -> Reasoner:
-    """Return a reasoner over an ontology in functional syntax."""
-    from pyhermit import Reasoner, ReasonerConfig
-    from pyowl_core import DocumentFormat, LoadOptions, load_snapshot
-
-    return Reasoner(
-        load_snapshot(text.encode(), options=LoadOptions(format=DocumentFormat.FUNCTIONAL)),
-        config=ReasonerConfig(timeout=TIME_LIMIT),
-    )
-
-
-def is_consistent(axioms: tuple[Axiom, ...]) -> bool:
-    """Return whether the axioms have a model."""
-    from pyhermit import ReasonerInterruptedError, ReasonerTimeoutError
-
-    with _open(ontology_text(axioms)) as reasoner:
-        try:
-            return reasoner.is_consistent()
-        except (ReasonerTimeoutError, ReasonerInterruptedError):
-            return True
-
-
 def explain(axioms: tuple[Axiom, ...]) -> str:
     """Return the few axioms that cannot hold together, as a person would say them, with the files they come from."""
     background = tuple(a for a in axioms if not a.where)
-    conflict = smallest_conflict(background, tuple(a for a in axioms if a.where), is_consistent)
+    try:
+        conflict = smallest_conflict(background, tuple(a for a in axioms if a.where), is_consistent)
+    except UndecidedError:
+        return f"which axioms clash was not found in time; allow more with the environment variable {LIMIT_VARIABLE}"
     if not conflict:
         return "two names are given to one thing"
     return "; ".join(f"{axiom.reading} ({axiom.where})" for axiom in conflict)
-
-
-def _cache_folder() -> Path | None:
-    chosen = os.environ.get(CACHE_VARIABLE)
-    if chosen is not None:
-        return Path(chosen) if chosen else None
-    base = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
-    return Path(base) / "prolepsis" / "types"
-
-
-def _read_answer(key: str) -> list[int] | str | None:
-    """Return the kept answer; one that is missing or altered counts as none."""
-    folder = _cache_folder()
-    if folder is None:
-        return None
-    try:
-        seal, body = (folder / f"{key}.json").read_text(encoding="utf-8").split("\n", 1)
-        if hashlib.sha256(f"{key}{body}".encode()).hexdigest() != seal:
-            return None
-        return cast("list[int] | str", json.loads(body))
-    except (OSError, ValueError):
-        return None
-
-
-def _keep_answer(key: str, answer: list[int] | str) -> None:
-    folder = _cache_folder()
-    if folder is None:
-        return
-    body = json.dumps(answer)
-    seal = hashlib.sha256(f"{key}{body}".encode()).hexdigest()
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile("w", dir=folder, suffix=".part", delete=False) as file:
-            file.write(f"{seal}\n{body}")
-        os.replace(file.name, folder / f"{key}.json")
-    except OSError:
-        return  # A cache that cannot be written only costs time.
