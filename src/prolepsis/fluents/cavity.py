@@ -27,7 +27,7 @@ CLEARANCE = 0.7
 through a grate. Its samples lie within a quarter of its half-width, so it may touch a wall."""
 CLEARANCE_STEPS = 5
 """Greatest clearance that is told apart [grid steps]."""
-LEAST_STEP = 0.0015
+LEAST_STEP = 0.002
 """Shortest step [m]: no finer than what is handled in a household asks for."""
 ORIENTATIONS = 10
 """Gravity's direction in the shape's frame is rounded to this fraction of one: it is at most 3 degrees off, which

@@ -20,6 +20,8 @@ from prolepsis.timeline import Fact
 FREE_FALL = 0.9
 """Downward acceleration that every fall reaches, as a share of gravity [1]: a flap that swings down on its hinge
 stays below 0.75, and so does what slides down all but the steepest slope."""
+FALL_WINDOW = 0.02
+"""Time over which that is taken [s]: the shortest fall that counts lasts 32 ms."""
 GIVING_WAY = 0.4
 """Downward acceleration from which it may begin [1]: a support that gives way still brakes a little."""
 BRAKED = 0.5
@@ -50,7 +52,7 @@ def falling(observation: Observation) -> Iterator[Fact]:
 
 def falling_runs(observation: Observation) -> dict[int, IntArray]:
     """Return when each unit falls, parts of stuffs included."""
-    steepest = np.minimum(*observation.of(climb_accelerations)) / max(observation.gravity, 1e-9)
+    steepest = np.minimum(*climb_accelerations(observation, FALL_WINDOW)) / max(observation.gravity, 1e-9)
     sinking = (steepest <= -GIVING_WAY) & (observation.of(climb_speeds) < 0)
     lifts = observation.of(lifting_forces)
     height = observation.of(heights)

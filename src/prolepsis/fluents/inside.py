@@ -18,7 +18,7 @@ from prolepsis.things import BoolArray, FloatArray, IntArray
 INSIDE_SHARE = 0.5
 """Share of x's volume [1] below the spill level from which x is inside: an apple on a plate is not, a ball that
 just looks out of a cup is."""
-LOOK_STEP = 0.01
+LOOK_STEP = 0.02
 """Time between two looks [s]; what goes in or out is followed tick by tick."""
 REST_SPEED = 0.01
 """Speed relative to the container below which x rests in it [m/s]."""

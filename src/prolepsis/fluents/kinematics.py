@@ -103,11 +103,16 @@ def surface_speeds(observation: Observation) -> FloatArray:
     return travel(observation, 0, 1)
 
 
-def climb_accelerations(observation: Observation) -> tuple[FloatArray, FloatArray]:
-    """Return the mean upward acceleration of each thing before and from each tick on [m/s^2], two of shape (n, T)."""
+def climb_accelerations(observation: Observation, time: float) -> tuple[FloatArray, FloatArray]:
+    """Return the mean upward acceleration of each thing before and from each tick on [m/s^2], two of shape (n, T).
+
+    Args:
+        observation: The log.
+        time: Length of each of the two windows [s].
+    """
     climb = observation.of(climb_speeds)
     count = observation.tick_count
-    window = ticks_of(BALANCE_WINDOW, observation.dt)
+    window = ticks_of(time, observation.dt)
     now = np.arange(count)
     # The last velocity is a copy, so it says nothing of acceleration.
     last = max(count - 2, 0)
@@ -122,6 +127,6 @@ def climb_accelerations(observation: Observation) -> tuple[FloatArray, FloatArra
 
 def balanced(observation: Observation) -> BoolArray:
     """Return whether all that holds a thing balances its weight, shape (n, T): it does not accelerate like a fall."""
-    past, future = observation.of(climb_accelerations)
+    past, future = climb_accelerations(observation, BALANCE_WINDOW)
     least, greatest = (share * max(observation.gravity, 1e-9) for share in BALANCED_ACCELERATION)
     return ((past >= least) & (past <= greatest)) | ((future >= least) & (future <= greatest))

@@ -71,6 +71,6 @@ def _placed(solid: Solid, shift: FloatArray, turn: FloatArray) -> Solid:
         size=solid.size,
         position=shift + turn @ solid.position,
         rotation=turn @ solid.rotation,
-        planes=solid.planes,
+        geom=solid.geom,
         corners=solid.corners,
     )

@@ -31,10 +31,15 @@ class Solid:
     """Centre of the geom's frame [m], shape (3,)."""
     rotation: FloatArray
     """Columns are the geom's axes, shape (3, 3)."""
-    planes: FloatArray
-    """Hull planes of a mesh (normal, offset), shape (F, 4)."""
+    geom: Geom
+    """The geom that it was made of."""
     corners: FloatArray
     """Extreme points in the geom's frame [m], shape (P, 3)."""
+
+    @property
+    def planes(self) -> FloatArray:
+        """Hull planes of a mesh (normal, offset), shape (F, 4)."""
+        return _planes_of(self.geom)
 
     @property
     def middle(self) -> FloatArray:
@@ -45,7 +50,8 @@ class Solid:
     def half_width(self) -> float:
         """Radius of the ball around the middle that fits inside [m]."""
         if self.type == "mesh":
-            return float((self.planes[:, 3] - self.planes[:, :3] @ self.corners.mean(axis=0)).min())
+            planes = self.planes
+            return float((planes[:, 3] - planes[:, :3] @ self.corners.mean(axis=0)).min())
         return float(self.size[: _size_count(self.type)].min())
 
     @property
@@ -113,7 +119,8 @@ def _box(solid: Solid, p: FloatArray) -> FloatArray:
 
 
 def _mesh(solid: Solid, p: FloatArray) -> FloatArray:
-    return (p @ solid.planes[:, :3].T - solid.planes[:, 3]).max(axis=1)
+    planes = solid.planes
+    return (p @ planes[:, :3].T - planes[:, 3]).max(axis=1)
 
 
 _DISTANCES = {
@@ -137,9 +144,15 @@ def solid_of(geom: Geom) -> Solid:
         size=size,
         position=np.array(geom.position),
         rotation=matrix(np.array(geom.orientation)),
-        planes=hull_planes(vertices) if geom.type == "mesh" else np.zeros((0, 4)),
+        geom=geom,
         corners=vertices if geom.type == "mesh" else _corners(geom.type, size),
     )
+
+
+@lru_cache(maxsize=4096)
+def _planes_of(geom: Geom) -> FloatArray:
+    # Few meshes are ever looked into, so the hull is not computed before it is needed.
+    return hull_planes(np.array(geom.vertices, dtype=np.float64).reshape(-1, 3))
 
 
 def _corners(type: str, size: FloatArray) -> FloatArray:
