@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from pathlib import Path
 
@@ -16,25 +16,37 @@ def write_run(timeline: Timeline, file: Path) -> None:
     """Write the facts and the domain knowledge of ``timeline`` to ``file``."""
     with file.open("w", encoding="utf-8") as out:
         out.write(f"tick({format_value(float(timeline.dt))}).\n")
+        out.writelines(_type_rows(timeline))
         out.writelines(_domain_rows(timeline))
-        for fact in timeline.facts:
-            out.write(_fact_row(fact))
+        out.write("".join(_fact_rows(timeline.facts)))
 
 
 def _text(value: Argument) -> str:
     return _atom(value) if isinstance(value, str) else format_value(value)
 
 
-def _time(value: float) -> str:
-    text = repr(float(value))
-    return text if "e" not in text else format_value(float(value))
+def _type_rows(timeline: Timeline) -> Iterable[str]:
+    for type_, kind, arity in sorted({(fact.type, fact.kind, len(fact.args)) for fact in timeline.facts}):
+        yield f"type({_atom(type_)},{kind},{arity}).\n"
 
 
-def _fact_row(fact: Fact) -> str:
-    name = _atom(fact.type)
-    term = f"{name}({','.join(map(_text, fact.args))})" if fact.args else name
-    row = f"{fact.kind}({term},{_time(fact.start)},{_time(fact.end)}).\n"
-    return row + "".join(f"proof({_atom(key)},{_text(value)}).\n" for key, value in fact.evidence.items())
+def _fact_rows(facts: Iterable[Fact]) -> Iterator[str]:
+    # Most of the work is making texts, and most terms come back: those of names alone are kept.
+    # Numbers are not, since 1, 1.0 and True are one key.
+    known: dict[tuple[str, tuple[Argument, ...]], str] = {}
+    for fact in facts:
+        key = (fact.type, fact.args)
+        term = known.get(key)
+        if term is None:
+            term = f"{_atom(fact.type)}({','.join(map(_text, fact.args))})" if fact.args else _atom(fact.type)
+            if all(isinstance(argument, str) for argument in fact.args):
+                known[key] = term
+        start, end = repr(float(fact.start)), repr(float(fact.end))
+        if "e" in start or "e" in end:  # Prolog reads no 1e-05, only 1.0e-5
+            start, end = format_value(float(fact.start)), format_value(float(fact.end))
+        yield f"{fact.kind}({term},{start},{end}).\n"
+        for name, value in fact.evidence.items():
+            yield f"proof({_atom(name)},{_text(value)}).\n"
 
 
 def _domain_rows(timeline: Timeline) -> Iterable[str]:

@@ -55,7 +55,6 @@ load_run(Run, File) :-
     setup_call_cleanup(open(File, read, In, [encoding(utf8)]),
                        read_rows(In, Module, 0, Last),
                        close(In)),
-    index_types(Module),
     index_spans(Module),
     assertz(known_run(Run, Module)),
     with_run(Run, add_chronicles(Module, Last)),
@@ -84,6 +83,9 @@ add_row(event(Term, Start, End), Module, Id0, Id) =>
 add_row(proof(Name, Value), Module, Id0, Id) =>
     Id = Id0,
     assertz(Module:proof(Id, Name, Value)).
+add_row(type(Type, Kind, Arity), Module, Id0, Id) =>
+    Id = Id0,
+    add_type(Module, Type, Kind, Arity).
 add_row(Row, Module, Id0, Id) =>
     Id = Id0,
     assertz(Module:Row).
@@ -102,18 +104,17 @@ flat(Term, Type, First, Second) :-
         Second = []
     ).
 
-index_types(Module) :-
-    forall(( member(Kind, [fluent, event]), distinct_type(Module, Kind, Type) ),
-           ( assertz(Module:type(Type, Kind)),
-             (   table_row(Kind, Module, Type, _, _, Term, _, _, _), functor(Term, _, Arity), Arity > 2
-             ->  assertz(Module:wide(Type))
-             ;   true
-             ) )).
+%   A type may have terms of several arities; it is listed once.
 
-distinct_type(Module, Kind, Type) :-
-    findall(T, table_row(Kind, Module, T, _, _, _, _, _, _), Types),
-    sort(Types, Distinct),
-    member(Type, Distinct).
+add_type(Module, Type, Kind, Arity) :-
+    (   Module:type(Type, Kind)
+    ->  true
+    ;   assertz(Module:type(Type, Kind))
+    ),
+    (   ( Arity =< 2 ; Module:wide(Type) )
+    ->  true
+    ;   assertz(Module:wide(Type))
+    ).
 
 index_spans(Module) :-
     findall(S-E, ( Module:fluent(_,_,_,_,S,E,_) ; Module:event(_,_,_,_,S,E,_) ), Spans),
@@ -128,9 +129,23 @@ add_chronicles(Module, Last) :-
     findall(Name/Arity, chronicle_name(Name, Arity), Names),
     foldl_chronicles(Names, Module, Last, End),
     (   End > Last
-    ->  index_spans(Module)
+    ->  index_spans(Module),
+        sort_events(Module)
     ;   true
     ).
+
+%   Events that were added stand where their time puts them.
+
+sort_events(Module) :-
+    findall(Row, table_clause(Module, event/7, Row), Rows0),
+    sort(6, @=<, Rows0, Rows1),
+    sort(5, @=<, Rows1, Rows),
+    retractall(Module:event(_,_,_,_,_,_,_)),
+    forall(member(Row, Rows), assertz(Module:Row)).
+
+table_clause(Module, Table, Head) :-
+    make_head(Table, Head),
+    Module:Head.
 
 foldl_chronicles([], _, Id, Id).
 foldl_chronicles([Name/Arity|Names], Module, Id0, Id) :-
@@ -140,7 +155,7 @@ foldl_chronicles([Name/Arity|Names], Module, Id0, Id) :-
     sort(Found, Distinct),
     (   Distinct == []
     ->  Id1 = Id0
-    ;   assertz(Module:type(Name, event)),
+    ;   add_type(Module, Name, event, Arity),
         assert_occurrences(Distinct, Module, Id0, Id1)
     ),
     foldl_chronicles(Names, Module, Id1, Id).

@@ -43,7 +43,7 @@ holds_at(Fluent, Instant) :-
 
 %!  occurs(?Event, ?Interval) is nondet.
 %
-%   True if Event occurs over Interval. Chronicles are events, after the grounded ones.
+%   True if Event occurs over Interval. Chronicles are events, too.
 
 occurs(Event, Time) :-
     matching(event, Event, Time, _, _).
@@ -93,17 +93,21 @@ narrowed(Term, Type, _, Kind, Run, S, E, Id), var(Term), atom(Type) =>
 narrowed(Term, _, _, Kind, Run, S, E, Id) =>
     row(Kind, Term, S, E, Id, Run).
 
+%   In the order of the timeline.
+
 ids_with(Object, Kind, Run, Ids) :-
-    findall(Id,
-            (   table_row(Kind, Run, _, Object, _, _, _, _, Id)
-            ;   table_row(Kind, Run, _, _, Object, _, _, _, Id)
+    findall(at(S, E, Id),
+            (   table_row(Kind, Run, _, Object, _, _, S, E, Id)
+            ;   table_row(Kind, Run, _, _, Object, _, S, E, Id)
             ;   Run:type(Type, Kind),
                 Run:wide(Type),
-                table_row(Kind, Run, Type, _, _, Term, _, _, Id),
+                table_row(Kind, Run, Type, _, _, Term, S, E, Id),
+                compound(Term),
                 Term =.. [_, _, _|More],
                 memberchk(Object, More)
             ), All),
-    sort(All, Ids).
+    sort(All, Sorted),
+    findall(Id, member(at(_, _, Id), Sorted), Ids).
 
 %!  fluentT(?Fluent, ?Type) is nondet.
 %!  fluent(?Fluent, ?Type) is nondet.
