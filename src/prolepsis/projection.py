@@ -123,6 +123,8 @@ def project(
         program,
         duration=read.duration,
         seed=read.seed,
+        draw=read.draw,
+        monitors=read.monitors,
         progress=lambda time: tell(f"simulating: {time:.1f} s"),
     )
     tell("recognizing")
@@ -163,6 +165,8 @@ def _scenario_row(scenario: Scenario, situation: list[str]) -> dict[str, Any]:
         "robot": scenario.robot,
         "duration": scenario.duration,
         "seed": scenario.seed,
+        "draw": scenario.draw,
+        "monitors": {name: list(chosen) for name, chosen in scenario.monitors.items()},
     }
 
 
@@ -180,4 +184,6 @@ def _scenario(row: dict[str, Any], path: Path) -> Scenario:
         robot=row["robot"],
         duration=row["duration"],
         seed=row["seed"],
+        draw=row["draw"],
+        monitors={name: tuple(chosen) for name, chosen in row["monitors"].items()},
     )

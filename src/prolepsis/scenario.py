@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, StrictFloat, StrictInt, StrictStr, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, StrictBool, StrictFloat, StrictInt, StrictStr, ValidationError
 
 from prolepsis.errors import InputError, PlanError, ScenarioError, UnknownNameError
 from prolepsis.knowledge import KnowledgeBase
@@ -39,9 +39,11 @@ class _ScenarioFile(BaseModel):
     plan: StrictStr
     duration: Number | None = None
     seed: Annotated[StrictInt, Field(ge=0)] = 0
+    draw: StrictBool = False
     robot: StrictStr | None = None
     parameters: dict[str, Number | StrictStr | _ParameterTable] = {}
     knowledge: dict[str, bool | Number | StrictStr] = {}
+    monitors: dict[str, list[StrictStr]] = {}
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +76,10 @@ class Scenario:
     """Simulated time [s]; None for the plan's length plus settling."""
     seed: int = 0
     """Seed of every random draw."""
+    draw: bool = False
+    """Whether uncertain strengths are drawn from their distributions; if not, each is its mean."""
+    monitors: Mapping[str, tuple[str, ...]] = field(default_factory=dict[str, "tuple[str, ...]"])
+    """What is logged of a thing instead of the usual, ``{"egg1": ("load", "speed")}``."""
 
     def __post_init__(self) -> None:
         """Refuse a scenario that cannot be run."""
@@ -128,6 +134,8 @@ class Scenario:
             robot=content.robot,
             duration=None if content.duration is None else float(content.duration),
             seed=content.seed,
+            draw=content.draw,
+            monitors={n: tuple(names) for n, names in content.monitors.items()},
         )
         return scenario.with_settings(settings or {})
 
@@ -229,7 +237,11 @@ def _first_problem(error: ValidationError, table: Mapping[str, Any]) -> str:
         return f'parameter {keys[1]}: give a number, the name of an individual, or {{ value = 20, unit = "N" }}'
     if keys[0] == "knowledge" and len(keys) > 1:
         return f'knowledge: {keys[1]}: give a number, a text or true/false; write the name in quotes, "egg1.mass"'
+    if keys[0] == "monitors" and len(keys) > 1:
+        return f'monitors: {keys[1]}: give a list of names, such as ["load", "speed"]'
     given: object = table.get(keys[0])
+    if keys[0] == "draw":
+        return f"draw = {given!r}: must be true or false"
     return f"{keys[0]} = {given!r}: {problem['msg'].lower()}"
 
 

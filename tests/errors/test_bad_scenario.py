@@ -32,6 +32,15 @@ def write(folder: Path, text: str) -> Path:
         ("hand1, Force", "hand1, 3", r"the plan has no variable Force"),
         ("[parameters]", "duration = 0\n[parameters]", r"duration must be a finite number of seconds greater than 0"),
         ("[parameters]", "seed = 1.5\n[parameters]", r"seed = 1\.5"),
+        ("[parameters]", 'draw = "yes"\n[parameters]', r"draw = 'yes': must be true or false"),
+        ("[parameters]", "draw = 1\n[parameters]", r"draw = 1: must be true or false"),
+        ("[parameters]", 'monitors = ["load"]\n[parameters]', r"monitors = \['load'\]"),
+        (
+            "[parameters]",
+            '[monitors]\negg1 = "load"\n[parameters]',
+            r'monitors: egg1: give a list of names, such as \["load"',
+        ),
+        ("[parameters]", "[monitors]\negg1 = [1]\n[parameters]", r"monitors: egg1: give a list of names"),
         ("20", "nan", r"parameter Force must be finite"),
         ("hand1, Force)", "hand1, Force", r"plan"),
     ],
@@ -59,3 +68,14 @@ def test_settings_match_without_regard_to_case_and_in_the_units_of_the_file(tmp_
 def test_a_bad_setting_is_refused(tmp_path: Path, settings: dict[str, str], message: str) -> None:
     with pytest.raises(InputError, match=message):
         Scenario.load(write(tmp_path, GOOD), settings)
+
+
+def test_draw_and_monitors_are_read_and_outlive_settings(tmp_path: Path) -> None:
+    text = GOOD.replace(
+        "[parameters]", 'draw = true\n[monitors]\nhand1 = ["speed", "height"]\nfloor = []\n[parameters]'
+    )
+    for scenario in (Scenario.load(write(tmp_path, text)), Scenario.load(write(tmp_path, text), {"force": "3"})):
+        assert scenario.draw is True
+        assert scenario.monitors == {"hand1": ("speed", "height"), "floor": ()}
+    plain = Scenario.load(write(tmp_path, GOOD))
+    assert (plain.draw, plain.monitors) == (False, {})
