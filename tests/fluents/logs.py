@@ -65,7 +65,7 @@ class Draft:
         return Log(
             dt=DT,
             things=tuple(self.things),
-            time=np.arange(self.ticks) * DT,
+            time=np.arange(self.ticks, dtype=np.float64) * DT,
             poses=self.poses,
             carrier=self.carrier,
             contacts=self._contacts(),

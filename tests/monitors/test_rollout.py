@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-import mujoco
+import mujoco as _mujoco  # pyright: ignore[reportMissingTypeStubs]
 import numpy as np
 import pytest
 from tests.fluents.worlds import FLOOR, HAND, HAND_DRIVES, STEP, ball, box, roll, world
@@ -12,6 +12,8 @@ from tests.fluents.worlds import FLOOR, HAND, HAND_DRIVES, STEP, ball, box, roll
 from prolepsis.errors import InputError, InvalidSimulationError, UnknownNameError
 from prolepsis.log import Log
 from prolepsis.things import FloatArray, Thing
+
+mujoco: Any = _mujoco  # without type stubs
 
 
 @pytest.mark.parametrize("cone", ["elliptic", "pyramidal"])
