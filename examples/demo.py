@@ -26,6 +26,9 @@ occurs(E,T1), eventT(E,'ClosingGripper'),
 argsOf(E, [rightGripper, {level}]), holds(F,T2),
 after(T2,T1), fluent(F,Type), argsOf(F,Args)"""
 
+SHOWN = 12
+"""Answers that are printed of one query."""
+
 LEVELS = [f"force{number}" for number in range(1, 13)]
 
 
@@ -63,8 +66,11 @@ def heading(text: str) -> None:
 def query(projection: Projection, goal: str) -> None:
     """Print a goal and its answers."""
     print("\n?- " + goal.replace("\n", "\n   ") + ".\n")
-    for answer in projection.ask(goal):
+    answers = projection.ask(goal)
+    for answer in answers[:SHOWN]:
         print("   " + bindings(answer))
+    if len(answers) > SHOWN:
+        print(f"   ... and {len(answers) - SHOWN} more, later ones")
 
 
 if __name__ == "__main__":
