@@ -31,6 +31,22 @@ PREFIX = "@prefix : <https://w3id.org/prolepsis#> .\n"
         (":a a :Egg ; :hasPart :s . :b a :Egg ; :hasPart :s . :s a :EggShell .", r"s has two wholes: a and b"),
         (":a a :Block ; :hasPart :b . :b a :Block ; :hasPart :a .", r"is a part of itself: a is part of b"),
         (":egg1 a :Egg ; :mass 0.05 , 0.06 .", r"egg1 has two values of mass"),
+        (
+            ":egg1 a :Egg ; :mass 0.04 ; :hasPart :s , :k . :s a :EggShell ; :mass 0.01 . :k a :EggYolk ; :mass 0.04 .",
+            r"s\.ttl:2: the mass of egg1 is 0\.04 kg, but its parts s, k have 0\.05 kg$",
+        ),
+        (
+            ":egg1 a :Egg ; :mass 0.06 ; :hasPart :s , :k . :s a :EggShell ; :mass 0.01 . :k a :EggYolk ; :mass 0.04 .",
+            r"s\.ttl:2: the mass of egg1 is 0\.06 kg, but its parts s, k have 0\.05 kg$",
+        ),
+        (
+            ":egg1 a :Egg ; :mass 0.01 ; :hasPart :s . :s a :EggShell ; :mass 0.01 .",
+            r"the mass of egg1 is 0\.01 kg, but its part s has 0\.01 kg, which leaves nothing for white1, yolk1$",
+        ),
+        (
+            ":b a :Block ; :mass 1 ; :hasPart :c . :c a :Block ; :hasPart :d . :d a :Block ; :mass 2 .",
+            r"the mass of b is 1 kg, but its part c has 2 kg$",
+        ),
         (":egg1 a :Egg\n:floor a :Floor .", r"s\.ttl:\d: Turtle syntax"),
     ],
 )

@@ -10,6 +10,7 @@ from prolepsis.domain import Domain
 from prolepsis.errors import KnowledgeError, UnknownNameError
 from prolepsis.knowledge.derived import volume
 from prolepsis.knowledge.describing import describe
+from prolepsis.knowledge.masses import Masses
 from prolepsis.knowledge.reasoning import Types, infer_types
 from prolepsis.knowledge.situation import Situation, Statement, read_situation
 from prolepsis.knowledge.spelling import refuse_unknown_names
@@ -54,7 +55,10 @@ class KnowledgeBase:
         refuse_unknown_names(documents, vocabulary)
         situation = read_situation(documents, vocabulary)
         types = infer_types(documents, vocabulary, situation, check=check)
-        return cls(vocabulary=vocabulary, situation=situation, types=types, documents=documents, overrides={})
+        base = cls(vocabulary=vocabulary, situation=situation, types=types, documents=documents, overrides={})
+        if check:
+            base._refuse_impossible_masses()
+        return base
 
     @property
     def individuals(self) -> tuple[str, ...]:
@@ -169,7 +173,9 @@ class KnowledgeBase:
         statements += [Statement(subject=n, property=p, value=v, where="override") for (n, p), v in overrides.items()]
         situation = replace(self.situation, statements=tuple(statements))
         types = infer_types(self.documents, self.vocabulary, situation, check=True)
-        return replace(self, situation=situation, types=types, overrides=overrides)
+        changed = replace(self, situation=situation, types=types, overrides=overrides)
+        changed._refuse_impossible_masses()
+        return changed
 
     def domain(self) -> Domain:
         """Return what is known of the physical objects and force levels as plain rows."""
@@ -214,49 +220,46 @@ class KnowledgeBase:
             return replace(known, origin="derived", source=f"that of its wall {walls[0]} ({known.source})")
         if property_name != "mass":
             return None
-        shared = self._shared_mass(name)
-        if shared is not None:
-            return shared
+        masses = self._masses()
+        share = masses.share(name)
+        if share is not None:
+            return _derived(share, f"its share of the mass of {self.situation.wholes[name]}")
         parts = self.situation.parts.get(name, ())
-        masses = {part: self._find(part, "mass") for part in parts}
-        if parts and all(masses.values()):
-            total = sum(float(known.value) for known in masses.values() if known is not None)
-            return Known(value=total, unit="kg", origin="derived", source=f"sum of {', '.join(parts)}")
-        shape, default = self._find(name, "shape"), self._default(name, property_name)
+        known = [self._find(part, "mass") for part in parts]
+        if parts and all(known):
+            return _derived(sum(float(k.value) for k in known if k is not None), f"sum of {', '.join(parts)}")
+        return self._mass_of_volume(name)
+
+    def _mass_of_volume(self, name: str) -> Known | None:
+        shape, default = self._find(name, "shape"), self._default(name, "mass")
         found = volume(str(shape.value), lambda p: self._number(name, p)) if shape and not default else None
         density = self._number(name, "density")
-        if found is None or density is None:
-            return None
-        return Known(value=density * found[0], unit="kg", origin="derived", source=f"density * {found[1]}")
+        return _derived(density * found[0], f"density * {found[1]}") if found and density else None
+
+    def _masses(self) -> Masses:
+        def usual(name: str) -> float | None:
+            known = self._default(name, "mass") or self._mass_of_volume(name)
+            return None if known is None else float(known.value)
+
+        return Masses(
+            parts=self.situation.parts,
+            wholes=self.situation.wholes,
+            stated=lambda name: self._stated(name, "mass"),
+            usual=usual,
+        )
+
+    def _refuse_impossible_masses(self) -> None:
+        def where(name: str) -> str:
+            places = [s.where for s in self.situation.statements if (s.subject, s.property) == (name, "mass")]
+            return places[0] if places else self.situation.places[name]
+
+        self._masses().refuse(where)
 
     def _stated(self, name: str, property_name: str) -> float | None:
         for s in self.situation.statements:
             if s.subject == name and s.property == property_name and isinstance(s.value, float):
                 return s.value
         return None
-
-    def _shared_mass(self, name: str) -> Known | None:
-        """Return the share of a part in a stated mass of its whole, in proportion to the defaults."""
-        whole = self.situation.wholes.get(name)
-        total = self._stated(whole, "mass") if whole is not None else None
-        if whole is None or total is None:
-            return None
-        parts = self.situation.parts[whole]
-        stated = {part: self._stated(part, "mass") for part in parts}
-        usual = {part: self._default(part, "mass") for part in parts if stated[part] is None}
-        rest = total - sum(mass for mass in stated.values() if mass is not None)
-        own = usual.get(name)
-        if own is None:
-            return None
-        sum_of_usual = sum(float(known.value) for known in usual.values() if known is not None)
-        if rest <= 0.0:
-            raise KnowledgeError(f"mass of {whole} is {total:g} kg, which its parts of stated mass already exceed")
-        return Known(
-            value=float(own.value) * rest / sum_of_usual,
-            unit="kg",
-            origin="derived",
-            source=f"its share of the mass of {whole}",
-        )
 
     def _number(self, name: str, property_name: str) -> float | None:
         known = self._find(name, property_name)
@@ -292,3 +295,7 @@ class KnowledgeBase:
                 f"state it for the individual, or for a common subclass"
             )
         return best[0], candidates[best[0]]
+
+
+def _derived(mass: float, source: str) -> Known:
+    return Known(value=mass, unit="kg", origin="derived", source=source)
