@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+import mujoco
 import numpy as np
 
 from prolepsis.log import Contacts
@@ -73,6 +74,8 @@ class Recorder:
 
     def tick(self, state: State) -> None:
         """Copy the poses at the start of a tick."""
+        # After a step MuJoCo's poses are those before it; bring them up to the present state.
+        mujoco.mj_kinematics(state.model, state.data)
         self.poses.append((len(self.versions) - 1, state.data.xpos.copy(), state.data.xquat.copy()))
 
     def pose_columns(self) -> tuple[FloatArray, IntArray]:
@@ -150,7 +153,9 @@ class Recorder:
         total = np.bincount(group, weights=weight, minlength=size)
 
         def summed(values: FloatArray, factor: FloatArray) -> FloatArray:
-            return np.stack([np.bincount(group, weights=values[:, k] * factor, minlength=size) for k in range(3)], axis=1)
+            return np.stack(
+                [np.bincount(group, weights=values[:, k] * factor, minlength=size) for k in range(3)], axis=1
+            )
 
         normal = summed((frame[:, 0] * sign[:, None])[keep], weight)
         length = np.linalg.norm(normal, axis=1, keepdims=True)

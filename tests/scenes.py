@@ -1,0 +1,43 @@
+"""Small scenes for tests, written as Turtle, and runs of them."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from prolepsis.knowledge import KnowledgeBase
+from prolepsis.log import Log
+from prolepsis.programs import read_program
+from prolepsis.scene import Scene, compile_world, compose
+from prolepsis.simulation import simulate
+from prolepsis.terms import parse_term
+
+PREFIX = "@prefix : <https://w3id.org/prolepsis#> .\n"
+
+EGG_IN_HAND = ":floor a :Floor . :table1 a :Table . :egg1 a :Egg ; :on :table1 .\n" + (
+    ":hand1 a :Gripper ; :pitch 90.0 ; :z 0.722 ; :opening 0.05 ."
+)
+"""An egg on a table, the open pads of a hand on both sides of it."""
+
+
+def scene(turtle: str, values: Mapping[str, float | str] | None = None) -> Scene:
+    """Return the scene of a situation written as Turtle (without the prefix), with some values replaced."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "situation.ttl"
+        file.write_text(PREFIX + turtle, encoding="utf-8")
+        knowledge = KnowledgeBase.load(file)
+    return compose(knowledge.with_values(values) if values else knowledge)
+
+
+def run(turtle: str, plan: str = "wait(0.001)", *, values: Mapping[str, float | str] | None = None, **options: Any) -> Log:
+    """Return the log of a plan in a situation; ``options`` are those of ``simulate``."""
+    composed = scene(turtle, values)
+    return simulate(compile_world(composed), read_program(parse_term(plan), composed), **options)
+
+
+def falling_egg(height: float, *, standing: bool = False) -> str:
+    """Return the situation of an egg whose lowest point is ``height`` [m] above the floor."""
+    z = height + (0.0285 if standing else 0.022)
+    return f":floor a :Floor . :egg1 a :Egg ; :z {z!r} ; :pitch {90.0 if standing else 0.0} ."
