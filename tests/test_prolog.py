@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 from pathlib import Path
 
 import pytest
+
+from prolepsis.fluents.attachment import HOLD_GAP
+from prolepsis.fluents.contact import FLICKER
+from prolepsis.fluents.fall import SAME_MOMENT
+from prolepsis.fluents.kinematics import BALANCE_WINDOW
+from prolepsis.fluents.support import SUPPORT_GAP, SUPPORT_LEAST
+from prolepsis.logic.process import PROLOG_FILES
 
 FILES = sorted((Path(__file__).parent / "prolog").glob("*.plt"))
 
@@ -16,3 +24,9 @@ def test_plunit(file: Path) -> None:
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 0, done.stderr
     assert not any(word in done.stderr for word in ("FAILED", "ERROR", "Warning")), done.stderr
+
+
+def test_chronicles_allow_for_what_recognition_does_not_notice() -> None:
+    (slack,) = re.findall(r"^slack\((.*)\)\.$", (PROLOG_FILES / "chronicles.pl").read_text(), re.MULTILINE)
+    unnoticed = max(FLICKER, SUPPORT_GAP, SUPPORT_LEAST, HOLD_GAP, SAME_MOMENT, BALANCE_WINDOW)
+    assert float(slack) == unnoticed

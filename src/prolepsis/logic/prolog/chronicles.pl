@@ -8,6 +8,7 @@
           [ chronicle/2,                % ?Event, -Interval
             chronicle_name/2            % -Name, -Arity
           ]).
+:- use_module(library(lists)).
 :- use_module(timeline).
 :- use_module(allen).
 :- use_module(knowledge).
@@ -26,65 +27,111 @@ chronicle_name(Name, Arity) :-
 
 %!  slack(-Seconds) is det.
 %
-%   Facts are debounced, so what happens at one moment may be recorded this far apart [s].
+%   Recognition notices nothing shorter than this, so what happens at one moment may be recorded this
+%   far apart [s]. It is the longest of its debounce times for contact, support, hold and fall; a test
+%   compares them.
 
 slack(0.05).
 
 %!  chronicle(picking_up(?Hand, ?Object), -Interval) is nondet.
 %
 %   Object loses its support while Hand holds it, nothing else takes the support over, and it moves.
-%   From the beginning of the hold until Object comes to rest or is let go.
+%   From the beginning of the hold until Object comes to rest or is let go. What Hand held already when
+%   the support began, and did not let go since, only brushed it.
 
 chronicle(picking_up(Hand, Object), Start-End) :-
-    holds(attached(Hand, Object), HoldStart-HoldEnd),
-    holds(supports(Support, Object), _-Lost),
-    Support \== Hand,
+    hold(Hand, Object, HoldStart, HoldEnd, _),
     slack(Slack),
-    HoldStart =< Lost+Slack,
-    HoldEnd > Lost+Slack,
-    \+ supported_by_another(Hand, Object, Lost+Slack),
-    \+ ( occurs(falling(Object), FallStart-FallEnd), FallStart < HoldStart, FallEnd > Lost ),
-    once(( occurs(moving(Object), MoveStart-MoveEnd), MoveStart < HoldEnd, MoveEnd > Lost+Slack )),
+    once(( holds(supports(Support, Object), SupportStart-Lost),
+           HoldStart =< Lost+Slack,
+           HoldEnd > Lost+Slack,
+           Support \== Hand,
+           \+ is_hand(Support),
+           \+ kept(Hand, Object, SupportStart, Lost),
+           \+ supported_by_another(Hand, Object, Lost+Slack),
+           \+ ( occurs(falling(Object), FallStart-FallEnd), FallStart < HoldStart, FallEnd > Lost ),
+           occurs(moving(Object), MoveStart-MoveEnd),
+           MoveStart < HoldEnd,
+           MoveEnd > Lost+Slack )),
     Start is min(HoldStart, Lost),
     End is min(MoveEnd, HoldEnd).
 
 %!  chronicle(putting_down(?Hand, ?Object), -Interval) is nondet.
 %
-%   Object gains a support while Hand holds it, and still has it when Hand lets go.
-%   From the gain of the support until Hand no longer touches Object.
+%   Object gains a support while Hand holds it, and still has it when Hand lets go. Another hand is no
+%   such support, nor is one that Object had to fall to. From the gain of the support until Hand no
+%   longer touches Object.
 
 chronicle(putting_down(Hand, Object), Start-End) :-
-    holds(attached(Hand, Object), HoldStart-HoldEnd),
-    holds(supports(Support, Object), Gained-SupportEnd),
-    Support \== Hand,
+    hold(Hand, Object, HoldStart, HoldEnd, LetGo),
     slack(Slack),
-    Gained > HoldStart+Slack,
-    Gained =< HoldEnd+Slack,
-    SupportEnd > HoldEnd+Slack,
-    \+ ( occurs(falling(Object), FallStart-_), FallStart >= HoldEnd-Slack, FallStart =< Gained ),
+    once(( holds(supports(Support, Object), Gained-SupportEnd),
+           Gained > HoldStart+Slack,
+           Gained =< HoldEnd+Slack,
+           SupportEnd > LetGo+Slack,
+           Support \== Hand,
+           \+ is_hand(Support),
+           \+ ( occurs(falling(Object), FallStart-_), FallStart >= HoldEnd-Slack, FallStart =< Gained ) )),
     Start is min(Gained, HoldEnd),
-    (   holds(contacts(Hand, Object), TouchStart-TouchEnd),
-        TouchStart =< Start,
-        TouchEnd > Start
-    ->  End = TouchEnd
-    ;   End is max(Gained, HoldEnd)
-    ).
+    End is max(Gained, LetGo).
 
 %!  chronicle(dropping(?Hand, ?Object), -Interval) is nondet.
 %
-%   A hold ends in falling. From the end of the hold to the end of the fall.
+%   A hold, or lying on a hand, ends in falling: at once, or after slipping through Hand's grip. From the
+%   end of the hold to the end of the fall. While another hand holds Object, it is not dropped.
 
 chronicle(dropping(Hand, Object), HoldEnd-FallEnd) :-
-    holds(attached(Hand, Object), HoldStart-HoldEnd),
-    occurs(falling(Object), FallStart-FallEnd),
+    (   hold(Hand, Object, HoldStart, HoldEnd, LetGo)
+    ;   holds(supports(Hand, Object), HoldStart-HoldEnd),
+        is_hand(Hand),
+        let_go(Hand, Object, HoldEnd, LetGo)
+    ),
     slack(Slack),
-    abs(FallStart-HoldEnd) =< Slack,
-    FallStart > HoldStart,
-    FallEnd > HoldEnd,
-    \+ ( holds(attached(Other, Object), OtherStart-OtherEnd),
-         Other \== Hand,
-         OtherStart =< HoldEnd,
-         OtherEnd > HoldEnd ).
+    once(( occurs(falling(Object), FallStart-FallEnd),
+           FallStart > HoldStart,
+           FallStart >= HoldEnd-Slack,
+           FallStart =< LetGo+Slack,
+           FallEnd > HoldEnd )),
+    \+ ( member(Carried, [attached(_, Object), supports(_, Object)]),
+         holds(Carried, OtherStart-OtherEnd),
+         OtherStart < FallStart,
+         OtherEnd > HoldEnd+Slack ).
+
+%   hold(?Hand, ?Object, -Start, -End, -LetGo): Hand holds Object, not by a joint, and touches it until LetGo.
+
+hold(Hand, Object, Start, End, LetGo) :-
+    holds(attached(Hand, Object), Start-End),
+    \+ evidence(attached(Hand, Object), Start-End, by, joint),
+    let_go(Hand, Object, End, LetGo).
+
+let_go(Hand, Object, HoldEnd, LetGo) :-
+    (   touching(Hand, Object, TouchStart-TouchEnd),
+        TouchStart =< HoldEnd,
+        TouchEnd > HoldEnd
+    ->  LetGo = TouchEnd
+    ;   LetGo = HoldEnd
+    ).
+
+touching(A, B, T) :- holds(contacts(A, B), T).
+touching(A, B, T) :- holds(contacts(B, A), T).
+
+%   kept(+Hand, +Object, +Start, +End): Hand held Object before Start, and did not let go until End.
+
+kept(Hand, Object, Start, End) :-
+    hold(Hand, Object, HoldStart, HoldEnd, LetGo),
+    slack(Slack),
+    HoldStart < Start,
+    HoldEnd >= Start-Slack,
+    LetGo >= End-Slack.
+
+%   is_hand(+Thing): Thing is a gripper, as far as is known of it.
+
+is_hand(Thing) :-
+    (   instance_of(Thing, 'Gripper')
+    ;   occurs(openingGripper(Thing), _)
+    ;   occurs(closingGripper(Thing), _)
+    ),
+    !.
 
 supported_by_another(Hand, Object, Time) :-
     Instant is Time,

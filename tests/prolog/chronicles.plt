@@ -1,0 +1,138 @@
+:- use_module(library(yall)).
+:- use_module(library(lists)).
+:- use_module(library(apply)).
+:- use_module(rows).
+:- use_module('../../src/prolepsis/logic/prolog/timeline').
+:- use_module('../../src/prolepsis/logic/prolog/chronicles').
+
+%   What a hand did, in the cases that differ by one fact.
+
+done(Rows, Done) :-
+    answers(Rows, Event-T, ( occurs(Event, T), functor(Event, Name, 2), chronicle_name(Name, 2) ), Done).
+
+%   Recorded from a simulated hand: an egg is lifted off the table, and lowered again.
+
+lifted([ fluent(supports(table1, egg1), 0.0, 2.007),
+         fluent(contacts(egg1, table1), 0.0, 2.007),
+         fluent(contacts(hand1, egg1), 1.531, 4.318),
+         fluent(attached(hand1, egg1), 2.007, 3.952),
+         proof(by, grip),
+         event(moving(egg1), 2.033, 2.712),
+         event(moving(egg1), 3.293, 3.960) ]).
+
+lowered([ fluent(contacts(egg1, table1), 3.952, 5.575),
+          fluent(supports(table1, egg1), 3.952, 5.575),
+          event(openingGripper(hand1), 4.316, 4.572) ]).
+
+%   The same egg, let go at a height.
+
+let_go([ fluent(supports(table1, egg1), 0.0, 2.007),
+         fluent(contacts(hand1, egg1), 1.531, 3.256),
+         fluent(attached(hand1, egg1), 2.007, 3.256),
+         event(moving(egg1), 2.033, 2.712),
+         event(falling(egg1), 3.256, 3.398),
+         event(moving(egg1), 3.256, 3.398),
+         event(breaking(egg1), 3.398, 3.399),
+         fluent(supports(table1, egg1), 3.4, 4.5) ]).
+
+picked(picking_up(hand1, egg1)-(2.007-2.712)).
+
+:- begin_tests(picking_up).
+
+test(lifted_off_the_table, Done == [Picked]) :-
+    lifted(Rows), picked(Picked), done(Rows, Done).
+test(the_hold_may_be_recorded_before_the_support_is_lost, Done == [picking_up(h, e)-(0.9-2.5)]) :-
+    done([ fluent(supports(t, e), 0.0, 1.0), fluent(attached(h, e), 0.9, 3.0), event(moving(e), 1.0, 2.5) ], Done).
+test(of_two_supports_lost_at_once_one_is_told, Done == [picking_up(h, e)-(1.0-2.0)]) :-
+    done([ fluent(supports(t1, e), 0.0, 0.99), fluent(supports(t2, e), 0.0, 1.01),
+           fluent(attached(h, e), 1.0, 3.0), event(moving(e), 1.0, 2.0) ], Done0),
+    maplist([E-(S-F), E-(R-F)]>>( R is round(S*10)/10.0 ), Done0, Done).
+test(slid_to_another_support, Done == []) :-
+    done([ fluent(supports(t1, e), 0.0, 1.0), fluent(supports(t2, e), 0.98, 3.0),
+           fluent(attached(h, e), 0.9, 3.0), event(moving(e), 0.9, 2.5) ], Done).
+test(falling_off_the_table, Done == []) :-
+    done([ fluent(supports(t, e), 0.0, 1.0), event(falling(e), 1.0, 1.4), event(moving(e), 0.8, 1.4),
+           fluent(supports(floor, e), 1.5, 3.0) ], Done).
+test(held_without_moving, Done == []) :-
+    done([ fluent(supports(t, e), 0.0, 1.0), fluent(attached(h, e), 0.9, 3.0) ], Done).
+test(taken_from_an_open_hand, Done == []) :-
+    done([ instance(palm, 'Gripper'), fluent(supports(palm, e), 0.0, 1.0), fluent(attached(h, e), 0.98, 3.0),
+           event(moving(e), 1.0, 2.0) ], Done).
+test(lifted_by_a_joint, Done == []) :-
+    done([ fluent(supports(t, lid), 0.0, 1.0), fluent(attached(pot, lid), 0.0, 3.0), proof(by, joint),
+           event(moving(lid), 1.0, 2.0) ], Done).
+test(the_table_ends_with_the_log, Done == []) :-
+    done([ fluent(supports(t, e), 0.0, 3.0), fluent(attached(h, e), 0.9, 3.0), event(moving(e), 0.9, 3.0) ], Done).
+
+:- end_tests(picking_up).
+
+:- begin_tests(putting_down).
+
+test(lowered_and_let_go, Done == [Picked, putting_down(hand1, egg1)-(3.952-4.318)]) :-
+    lifted(Lifted), lowered(Lowered), append(Lifted, Lowered, Rows), picked(Picked), done(Rows, Done).
+test(the_hold_may_be_recorded_beyond_the_support, Done == [putting_down(h, e)-(2.0-2.5)]) :-
+    done([ fluent(attached(h, e), 0.0, 2.5), fluent(supports(t, e), 2.0, 4.0) ], Done).
+test(two_supports_are_one_putting_down, Done == [putting_down(h, e)-(2.0-2.02)]) :-
+    done([ fluent(attached(h, e), 0.0, 2.0), fluent(supports(b1, e), 2.0, 4.0), fluent(supports(b2, e), 2.02, 4.0),
+           fluent(contacts(h, e), 0.0, 2.02) ], Done).
+test(dropping_is_not, Done == [Picked, dropping(hand1, egg1)-(3.256-3.398)]) :-
+    let_go(Rows), picked(Picked), done(Rows, Done).
+test(nor_is_a_short_drop, Done == [dropping(h, e)-(2.0-2.04)]) :-
+    done([ fluent(attached(h, e), 0.0, 2.0), event(falling(e), 2.0, 2.04), fluent(supports(t, e), 2.045, 4.0) ], Done).
+test(nor_handing_over_to_a_grip, Done == []) :-
+    done([ fluent(attached(h1, e), 0.0, 2.1), fluent(attached(h2, e), 2.0, 4.0), event(moving(e), 0.0, 4.0) ], Done).
+test(nor_handing_over_to_an_open_hand, Done == []) :-
+    done([ instance(palm, 'Gripper'), fluent(attached(h1, e), 0.0, 2.0), fluent(supports(palm, e), 2.0, 4.0) ], Done).
+test(only_the_hand_that_put_it_down, Done == [putting_down(h2, e)-(4.0-4.2)]) :-
+    done([ fluent(attached(h1, e), 0.0, 2.1), fluent(attached(h2, e), 2.0, 4.2), fluent(supports(t, e), 4.0, 6.0) ],
+         Done).
+test(nor_brushing_while_held, Done == []) :-
+    done([ fluent(attached(h, e), 0.0, 5.0), fluent(supports(t, e), 2.0, 2.4), event(moving(e), 1.0, 4.0) ], Done).
+test(nor_brushing_that_interrupts_the_hold, Done == []) :-
+    done([ fluent(contacts(h, e), 0.0, 5.0), fluent(attached(h, e), 0.0, 2.0), fluent(supports(t, e), 2.0, 2.4),
+           fluent(attached(h, e), 2.4, 5.0), event(moving(e), 1.0, 4.0) ], Done).
+test(nor_setting_it_on_the_table_without_letting_go, Done == []) :-
+    done([ fluent(contacts(h, e), 0.0, 5.0), fluent(attached(h, e), 0.0, 2.0), fluent(supports(t, e), 2.0, 5.0) ],
+         Done).
+test(the_table_that_carried_it_all_along_is_not_gained, Done == []) :-
+    done([ fluent(attached(h, e), 1.0, 2.0), fluent(supports(t, e), 0.0, 5.0) ], Done).
+
+:- end_tests(putting_down).
+
+:- begin_tests(dropping).
+
+test(slipping_through_the_grip, Done == [dropping(h, e)-(2.0-2.9)]) :-
+    done([ fluent(contacts(e, h), 0.0, 2.5), fluent(attached(h, e), 0.0, 2.0), event(falling(e), 2.5, 2.9) ], Done).
+test(from_an_opening_palm, Done == [dropping(palm, e)-(1.0-1.3)]) :-
+    done([ fluent(supports(palm, e), 0.0, 1.0), event(openingGripper(palm), 0.98, 1.2), event(falling(e), 1.0, 1.3) ],
+         Done).
+test(a_table_drops_nothing, Done == []) :-
+    done([ fluent(supports(t, e), 0.0, 1.0), event(falling(e), 1.0, 1.3) ], Done).
+test(another_hand_still_holds_it, Done == []) :-
+    done([ fluent(attached(h1, e), 0.0, 2.0), fluent(attached(h2, e), 1.0, 4.0), event(falling(e), 2.0, 2.3) ], Done).
+test(put_down_and_pushed_over_the_edge, Done == [putting_down(h, e)-(2.0-2.1)]) :-
+    done([ fluent(attached(h, e), 0.0, 2.0), fluent(contacts(h, e), 0.0, 2.1), fluent(supports(t, e), 2.0, 4.0),
+           event(falling(e), 4.0, 4.4) ], Done).
+test(put_down_then_pushed_over_the_edge_by_the_closed_hand, Done == []) :-
+    done([ fluent(attached(h, e), 0.0, 2.0), fluent(contacts(h, e), 0.0, 4.0), fluent(supports(t, e), 2.0, 4.0),
+           event(falling(e), 4.0, 4.4) ], Done).
+test(gripped_anew_and_dropped_once, Done == [dropping(h, e)-(3.0-3.3)]) :-
+    done([ fluent(contacts(h, e), 0.0, 3.0), fluent(attached(h, e), 0.0, 2.0), fluent(attached(h, e), 2.2, 3.0),
+           event(falling(e), 3.0, 3.3) ], Done).
+
+:- end_tests(dropping).
+
+:- begin_tests(chronicles).
+
+test(stand_among_the_other_events_by_time, Types == [picking_up, moving, moving, putting_down, openingGripper]) :-
+    lifted(Lifted), lowered(Lowered), append(Lifted, Lowered, Rows),
+    answers(Rows, Type, ( occurs(E, _), eventT(E, Type) ), Types).
+test(also_of_one_object, Types == [picking_up, moving, moving, putting_down]) :-
+    lifted(Lifted), lowered(Lowered), append(Lifted, Lowered, Rows),
+    answers(Rows, Type, ( matching(event, E, _, _, egg1), functor(E, Type, _) ), Types).
+test(are_typed, Type == picking_up) :-
+    lifted(Rows), answers(Rows, Type, eventT(picking_up(hand1, egg1), Type), [Type]).
+test(are_found_in_the_other_spelling, Count == 1) :-
+    lifted(Rows), answers(Rows, E, eventT(E, 'PickingUp'), Events), length(Events, Count).
+
+:- end_tests(chronicles).
