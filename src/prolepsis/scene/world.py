@@ -14,9 +14,9 @@ from prolepsis.robots.hand import HAND
 from prolepsis.scene.scene import Scene
 from prolepsis.things import Thing, Triple
 
-SMOOTH_SOLREF = (0.01, 1.0)
-SMOOTH_SOLIMP = (0.0, 0.95, 0.002, 0.5, 2.0)
-"""Contact of things whose stiffness does not matter: a smooth onset, or a sliding box hops."""
+SMOOTH_SOLREF = (0.005, 1.0)
+SMOOTH_SOLIMP = (0.0, 0.95, 0.001, 0.5, 2.0)
+"""Contact of things whose stiffness does not matter: a smooth onset, or a sliding box hops; it gives by 0.3 mm."""
 SMALL_SOLREF = (0.004, 1.0)
 """Contact of pieces and blobs, which weigh grams and would be passed through at the softer value."""
 SMALL_SOLIMP = (0.9, 0.95, 0.001, 0.5, 2.0)

@@ -81,11 +81,18 @@ def ellipsoid_shell(semi_axes: tuple[float, float, float], piece_count: int, thi
     centres = centres[order]
     owner = _nearest(samples, centres)
     bonds, widths = _common_edges(samples, owner, centres, axes)
-    outlines = tuple(_outline(samples[owner == k], normals[owner == k], centres[k], thickness) for k in range(piece_count))
+    outlines = tuple(
+        _outline(samples[owner == k], normals[owner == k], centres[k], thickness) for k in range(piece_count)
+    )
     surface = _ellipsoid_area(axes)
     areas = np.bincount(owner, minlength=piece_count) / len(samples) * surface
     return Shell(
-        centres=centres, normals=ellipsoid_normals(centres, axes), areas=areas, outlines=outlines, bonds=bonds, widths=widths
+        centres=centres,
+        normals=ellipsoid_normals(centres, axes),
+        areas=areas,
+        outlines=outlines,
+        bonds=bonds,
+        widths=widths,
     )
 
 

@@ -48,7 +48,9 @@ def bowl(q: Mapping[str, float]) -> tuple[Geom, ...]:
     r, h, t = q["radius"], q["height"], q["thickness"]
     sphere = (r * r + h * h) / (2 * h)
     foot = 0.35 * r
-    angles = [math.asin(foot / sphere) + k / RINGS * (_opening(r, h) - math.asin(foot / sphere)) for k in range(RINGS + 1)]
+    angles = [
+        math.asin(foot / sphere) + k / RINGS * (_opening(r, h) - math.asin(foot / sphere)) for k in range(RINGS + 1)
+    ]
     outer = [(sphere * math.sin(a), sphere * (1 - math.cos(a))) for a in angles]
     inner = [((sphere - t) * math.sin(a), sphere - (sphere - t) * math.cos(a)) for a in angles]
     base = Geom(type="cylinder", size=(foot, (inner[0][1]) / 2, 0.0), position=(0.0, 0.0, inner[0][1] / 2))

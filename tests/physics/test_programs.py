@@ -1,0 +1,139 @@
+"""Programs are generators of commands, so they run here without any physics; bad plans are refused."""
+
+from __future__ import annotations
+
+import pytest
+
+from prolepsis.errors import InputError, PlanError, UnknownNameError
+from prolepsis.programs import ACTIONS, read_program
+from prolepsis.programs.commands import BaseTarget, Begin, CloseGripper, Command, End, HandSense, OpenGripper, Sense
+from prolepsis.scene import Scene
+from prolepsis.terms import Term, parse_term
+from prolepsis.things import Triple
+from tests.scenes import EGG_IN_HAND, scene
+
+
+@pytest.fixture(scope="module")
+def egg_in_hand() -> Scene:
+    return scene(EGG_IN_HAND)
+
+
+class FakeHand:
+    """A hand that does at once what it is told."""
+
+    def __init__(self, position: Triple, opening: float = 0.05) -> None:
+        self.start, self.offset, self.opening, self.motion, self.force = position, (0.0, 0.0, 0.0), opening, 0, 0.0
+
+    def obey(self, commands: tuple[Command, ...]) -> None:
+        self.motion = 0
+        for command in commands:
+            if isinstance(command, BaseTarget):
+                self.offset = command.offset
+            elif isinstance(command, OpenGripper):
+                self.opening = command.width
+            elif isinstance(command, CloseGripper):
+                self.force = command.force
+
+    def sense(self, time: float) -> Sense:
+        here = tuple(a + b for a, b in zip(self.start, self.offset, strict=True))
+        hand = HandSense(
+            position=(here[0], here[1], here[2]),
+            offset=self.offset,
+            opening=self.opening,
+            pad_force=self.force,
+            motion=self.motion,
+        )
+        return Sense(time=time, hands={"hand1": hand}, place=lambda name: (0.0, 0.0, 0.722))
+
+
+def carried_out(plan: str, known: Scene, hand: FakeHand | None = None) -> list[tuple[int, Command]]:
+    """Return (tick, command) of a plan carried out by a hand that does at once what it is told."""
+    hand = hand or FakeHand((0.0, 0.0, 0.722))
+    running = read_program(parse_term(plan), known).start(hand.sense(0.0))
+    said: list[tuple[int, Command]] = []
+    for tick in range(20000):
+        commands = running.step(hand.sense(tick * 1e-3))
+        if running.ended:
+            return said
+        said += [(tick, command) for command in commands]
+        hand.obey(commands)
+    raise AssertionError("the program does not end")
+
+
+def actions_of(said: list[tuple[int, Command]]) -> list[tuple[str, int, int]]:
+    begun = {c.term: t for t, c in said if isinstance(c, Begin)}
+    return [(str(c.term), begun[c.term], t) for t, c in said if isinstance(c, End)]
+
+
+def test_a_sequence_does_one_action_after_the_other(egg_in_hand: Scene) -> None:
+    rows = actions_of(carried_out("sequence([wait(0.1), lift(hand1, 0.1), hold(hand1, 0.2)])", egg_in_hand))
+    assert [name for name, _, _ in rows] == ["wait(0.1)", "lift(hand1,0.1)", "hold(hand1,0.2)"]
+    for (_, _, end), (_, start, _) in zip(rows, rows[1:], strict=False):
+        assert 0 <= start - end <= 1
+
+
+def test_together_begins_at_once_and_ends_with_the_last(egg_in_hand: Scene) -> None:
+    rows = actions_of(carried_out("together([wait(0.3), lift(hand1, 0.01), wait(0.1)])", egg_in_hand))
+    assert {start for _, start, _ in rows} == {0}
+    assert max(end for _, _, end in rows) == 300
+
+
+def test_a_move_keeps_to_its_acceleration_and_speed(egg_in_hand: Scene) -> None:
+    said = carried_out("carry(hand1, [0.6, 0, 0.8], 4.0, 0.5)", egg_in_hand)
+    speeds = [sum(v * v for v in c.velocity) ** 0.5 for _, c in said if isinstance(c, BaseTarget)]
+    assert max(speeds) == pytest.approx(0.5, rel=0.01)
+    steps = [abs(b - a) / 1e-3 for a, b in zip(speeds, speeds[1:], strict=False)]
+    assert max(steps) <= 4.0
+    last = [c for _, c in said if isinstance(c, BaseTarget)][-1]
+    assert last.offset == pytest.approx((0.6, 0.0, 0.8))
+
+
+def test_grasp_reaches_for_what_is_elsewhere_and_closes_with_the_named_level(egg_in_hand: Scene) -> None:
+    hand = FakeHand((0.2, 0.1, 0.95), opening=0.0)
+    said = carried_out("grasp(hand1, egg1, force7)", egg_in_hand, hand)
+    assert hand.sense(0.0).hands["hand1"].position == pytest.approx((0.0, 0.0, 0.722), abs=1e-6)
+    assert hand.opening >= 0.044
+    closings = [c for _, c in said if isinstance(c, CloseGripper)]
+    assert [c.force for c in closings] == [15.0]
+
+
+def test_grasp_tells_the_greatest_pad_force_as_evidence(egg_in_hand: Scene) -> None:
+    ends = [c for _, c in carried_out("grasp(hand1, egg1, 5)", egg_in_hand) if isinstance(c, End)]
+    assert ends[0].evidence == {"peak_pad_force": 5.0}
+
+
+REFUSED = [
+    ("gasp(hand1, egg1, 5)", UnknownNameError, "plan: no action named 'gasp'; did you mean 'grasp'"),
+    ("grasp(hand1)", PlanError, r"plan: grasp\(hand1\) has 1 argument, needed: grasp\(Hand, Object, Force\)"),
+    ("lift(hand1, 0.1, 0.2, 0.3, 0.4)", PlanError, r"has 5 arguments, needed: lift\(Hand, Height, Speed = 0.25"),
+    ("grasp(hand2, egg1, 5)", UnknownNameError, "plan: hand of .*: no gripper named 'hand2'.*known: hand1"),
+    ("grasp(hand1, egg7, 5)", UnknownNameError, "plan: object of .*: no object named 'egg7'.*known: egg1"),
+    ("grasp(hand1, egg1, force99)", UnknownNameError, "no force level named 'force99'"),
+    ("grasp(hand1, egg1, -3)", PlanError, "must be positive, not -3"),
+    ("grasp(hand1, egg1, Force)", PlanError, "has no value; give parameter Force one"),
+    ("lift(hand1, high)", PlanError, r"must be a number \[m\], not high"),
+    ("carry(hand1, 0.3, 2.0)", PlanError, r"must be a list of three lengths .*, such as \[0.2, 0, 0.1\]"),
+    ("grasp(hand1, table1, 5)", PlanError, "table1 is not graspable: .* mm wide between the pads, hand1 opens 90 mm"),
+    ("sequence(lift(hand1, 0.1))", PlanError, "sequence needs a list of actions"),
+    ("sequence([Something])", PlanError, "Something stands where an action is needed"),
+    ("wait", PlanError, "wait is no action; an action looks like"),
+]
+
+
+@pytest.mark.parametrize(("plan", "kind", "message"), REFUSED)
+def test_a_plan_that_cannot_work_is_refused(plan: str, kind: type[InputError], message: str, egg_in_hand: Scene) -> None:
+    with pytest.raises(kind, match=message):
+        read_program(parse_term(plan), egg_in_hand)
+
+
+def test_an_object_out_of_reach_is_refused() -> None:
+    far = scene(":floor a :Floor . :egg1 a :Egg ; :x 9.0 ; :on :floor . :hand1 a :Gripper ; :pitch 90.0 ; :z 0.5 .")
+    with pytest.raises(PlanError, match=r"egg1 is out of reach of hand1: 9\.00 m away, allowed 1\.5 m"):
+        read_program(parse_term("grasp(hand1, egg1, 5)"), far)
+
+
+def test_every_action_says_what_it_does_and_how_it_is_written() -> None:
+    for spec in ACTIONS.values():
+        assert spec.doc.endswith("."), spec.name
+        assert spec.usage().startswith(f"{spec.name}(")
+    assert isinstance(parse_term("wait(1)"), Term)
