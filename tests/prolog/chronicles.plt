@@ -103,7 +103,7 @@ test(the_table_that_carried_it_all_along_is_not_gained, Done == []) :-
 
 test(slipping_through_the_grip, Done == [dropping(h, e)-(2.0-2.9)]) :-
     done([ fluent(contacts(e, h), 0.0, 2.5), fluent(attached(h, e), 0.0, 2.0), event(falling(e), 2.5, 2.9) ], Done).
-test(from_an_opening_palm, Done == [dropping(palm, e)-(1.0-1.3)]) :-
+test(from_an_opening_palm_it_falls_undropped, Done == []) :-
     done([ fluent(supports(palm, e), 0.0, 1.0), event(openingGripper(palm), 0.98, 1.2), event(falling(e), 1.0, 1.3) ],
          Done).
 test(a_table_drops_nothing, Done == []) :-

@@ -77,15 +77,12 @@ chronicle(putting_down(Hand, Object), Start-End) :-
 
 %!  chronicle(dropping(?Hand, ?Object), -Interval) is nondet.
 %
-%   A hold, or lying on a hand, ends in falling: at once, or after slipping through Hand's grip. From the
-%   end of the hold to the end of the fall. While another hand holds Object, it is not dropped.
+%   A hold ends in falling: at once, or after slipping through Hand's grip. From the end of the hold to
+%   the end of the fall. While another hand holds Object, or something bears it, it is not dropped; nor
+%   is what only lay on a hand that gave way.
 
 chronicle(dropping(Hand, Object), HoldEnd-FallEnd) :-
-    (   hold(Hand, Object, HoldStart, HoldEnd, LetGo)
-    ;   holds(supports(Hand, Object), HoldStart-HoldEnd),
-        is_hand(Hand),
-        let_go(Hand, Object, HoldEnd, LetGo)
-    ),
+    hold(Hand, Object, HoldStart, HoldEnd, LetGo),
     slack(Slack),
     once(( occurs(falling(Object), FallStart-FallEnd),
            FallStart > HoldStart,
@@ -102,14 +99,11 @@ chronicle(dropping(Hand, Object), HoldEnd-FallEnd) :-
 hold(Hand, Object, Start, End, LetGo) :-
     holds(attached(Hand, Object), Start-End),
     \+ evidence(attached(Hand, Object), Start-End, by, joint),
-    let_go(Hand, Object, End, LetGo).
-
-let_go(Hand, Object, HoldEnd, LetGo) :-
     (   touching(Hand, Object, TouchStart-TouchEnd),
-        TouchStart =< HoldEnd,
-        TouchEnd > HoldEnd
+        TouchStart =< End,
+        TouchEnd > End
     ->  LetGo = TouchEnd
-    ;   LetGo = HoldEnd
+    ;   LetGo = End
     ).
 
 touching(A, B, T) :- holds(contacts(A, B), T).
