@@ -64,6 +64,11 @@ test(lifted_by_a_joint, Done == []) :-
 test(the_table_ends_with_the_log, Done == []) :-
     done([ fluent(supports(t, e), 0.0, 3.0), fluent(attached(h, e), 0.9, 3.0), event(moving(e), 0.9, 3.0) ], Done).
 
+test(the_hold_begins_a_moment_late, Done == [picking_up(h, e)-(1.0-2.0)]) :-
+    done([ fluent(supports(t, e), 0.0, 1.0), fluent(attached(h, e), 1.04, 3.0), event(moving(e), 1.0, 2.0) ], Done).
+test(caught_in_the_air, Done == []) :-
+    done([ fluent(supports(t, e), 0.0, 1.0), fluent(attached(h, e), 1.2, 3.0), event(moving(e), 1.0, 2.0) ], Done).
+
 :- end_tests(picking_up).
 
 :- begin_tests(putting_down).
@@ -97,6 +102,11 @@ test(nor_setting_it_on_the_table_without_letting_go, Done == []) :-
 test(the_table_that_carried_it_all_along_is_not_gained, Done == []) :-
     done([ fluent(attached(h, e), 1.0, 2.0), fluent(supports(t, e), 0.0, 5.0) ], Done).
 
+test(the_support_begins_a_moment_late, Done == [putting_down(h, e)-(2.0-2.04)]) :-
+    done([ fluent(attached(h, e), 0.0, 2.0), fluent(supports(t, e), 2.04, 4.0) ], Done).
+test(nor_throwing_upon_it, Done == []) :-
+    done([ fluent(attached(h, e), 0.0, 2.0), fluent(supports(t, e), 2.2, 4.0) ], Done).
+
 :- end_tests(putting_down).
 
 :- begin_tests(dropping).
@@ -119,6 +129,11 @@ test(put_down_then_pushed_over_the_edge_by_the_closed_hand, Done == []) :-
 test(gripped_anew_and_dropped_once, Done == [dropping(h, e)-(3.0-3.3)]) :-
     done([ fluent(contacts(h, e), 0.0, 3.0), fluent(attached(h, e), 0.0, 2.0), fluent(attached(h, e), 2.2, 3.0),
            event(falling(e), 3.0, 3.3) ], Done).
+
+test(the_fall_begins_a_moment_late, Done == [dropping(h, e)-(2.0-2.4)]) :-
+    done([ fluent(attached(h, e), 0.0, 2.0), event(falling(e), 2.03, 2.4) ], Done).
+test(thrown_up_and_falling_later, Done == []) :-
+    done([ fluent(attached(h, e), 0.0, 2.0), event(falling(e), 2.3, 2.7) ], Done).
 
 :- end_tests(dropping).
 
