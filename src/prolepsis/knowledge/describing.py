@@ -68,6 +68,7 @@ def _property_lines(entry: Property) -> list[str]:
     lines += [f"  values: {entry.bounds}"] if entry.bounds else []
     lines += [f"  value is a: {entry.range}"] if entry.range else []
     lines += [f"  is a kind of: {', '.join(entry.parents)}"] if entry.parents else []
+    lines += [f"  corresponds to: {iri}" for iri in entry.alignments]
     return lines
 
 

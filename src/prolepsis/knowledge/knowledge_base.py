@@ -8,15 +8,17 @@ from pathlib import Path
 
 from prolepsis.domain import Domain
 from prolepsis.errors import KnowledgeError, UnknownNameError
+from prolepsis.knowledge.declarations import read_vocabulary
 from prolepsis.knowledge.derived import volume
 from prolepsis.knowledge.describing import describe
 from prolepsis.knowledge.masses import Masses
 from prolepsis.knowledge.reasoning import Types, infer_types
-from prolepsis.knowledge.situation import Situation, Statement, read_situation
+from prolepsis.knowledge.situation import INVERSES, Situation, Statement, read_situation
 from prolepsis.knowledge.spelling import refuse_unknown_names
 from prolepsis.knowledge.turtle import Document, documents_of
 from prolepsis.knowledge.values import Known
-from prolepsis.knowledge.vocabulary import Default, Vocabulary, read_value, read_vocabulary
+from prolepsis.knowledge.vocabulary import Default, Vocabulary
+from prolepsis.knowledge.written import read_value
 
 OF_THE_WALL = ("friction", "breakingForce", "plateStiffness", "shellThickness")
 """A whole with one part that encloses the others has these of that part: one touches and breaks an egg by its shell."""
@@ -163,8 +165,8 @@ class KnowledgeBase:
             entry = self.vocabulary.properties.get(property_name)
             if entry is None:
                 raise UnknownNameError.of("property", property_name, self.vocabulary.properties, where=key)
-            if property_name in ("hasPart", "partOf", "comprises"):
-                raise KnowledgeError(f"{key}: parts cannot be overridden; write them in the situation")
+            if property_name in ("hasPart", "comprises", *INVERSES):
+                raise KnowledgeError(f"{key}: {property_name} cannot be overridden; write it in the situation")
             read = read_value(entry, str(value).lower() if isinstance(value, bool) else value, where=key)
             if entry.kind == "relation":
                 self._require(str(read), where=key)

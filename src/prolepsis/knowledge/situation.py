@@ -9,7 +9,11 @@ from rdflib import OWL, RDF, RDFS, BNode, URIRef
 
 from prolepsis.errors import KnowledgeError, UnknownNameError
 from prolepsis.knowledge.turtle import NAMESPACE, Document, local_name
-from prolepsis.knowledge.vocabulary import Vocabulary, read_value
+from prolepsis.knowledge.vocabulary import Vocabulary
+from prolepsis.knowledge.written import read_value
+
+INVERSES = {"partOf": "hasPart", "supports": "on"}
+"""Properties that say what another one says, from the other end; only the other one is kept."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -133,10 +137,11 @@ def _statements(document: Document, vocabulary: Vocabulary, classes: Mapping[str
 
 
 def _upright(statement: Statement) -> Statement:
-    """Return ``part partOf whole`` as ``whole hasPart part``."""
-    if statement.property != "partOf":
+    """Return a statement with an inverse property the other way round."""
+    upright = INVERSES.get(statement.property)
+    if upright is None:
         return statement
-    return replace(statement, subject=str(statement.value), property="hasPart", value=statement.subject)
+    return replace(statement, subject=str(statement.value), property=upright, value=statement.subject)
 
 
 def _refuse_second_values(statements: list[Statement], vocabulary: Vocabulary) -> None:

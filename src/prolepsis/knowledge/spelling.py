@@ -6,8 +6,9 @@ from rdflib import OWL, RDF, RDFS, URIRef
 from rdflib.term import Node
 
 from prolepsis.errors import UnknownNameError
+from prolepsis.knowledge.declarations import PRO
 from prolepsis.knowledge.turtle import NAMESPACE, Document, local_name
-from prolepsis.knowledge.vocabulary import PRO, Vocabulary
+from prolepsis.knowledge.vocabulary import Vocabulary
 
 _COMMON = (
     "http://www.w3.org/1999/02/22-rdf-syntax-ns#",
