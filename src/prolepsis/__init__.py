@@ -13,7 +13,12 @@ Names are imported when they are first used, so that ``import prolepsis`` is fas
 from __future__ import annotations
 
 import importlib
+import os
 from typing import TYPE_CHECKING, Any
+
+# The matrices here are small: more threads of the linear algebra library only get in each other's way. Whoever
+# wants them sets the variable; it counts when numpy has not been imported yet.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 if TYPE_CHECKING:
     from prolepsis.campaign import Outcomes, sweep

@@ -29,6 +29,8 @@ IMPEDANCE = 0.1
 """Constant impedance: static and dynamic stiffness then differ by a factor 1 / (1 - 0.1) only."""
 BETWEEN_SAMPLES = 0.9
 """Margin of the screen for contacts between its sampled points [1]."""
+LIGHT = 0.2
+"""A fragment that is pressed less than this [N] is not computed: shards break at some newtons."""
 DRIFT = 3.0e-4
 """A contact that has moved less than this [m], a twentieth of the spread of its force, loads the same bonds."""
 PRESSED = 0.1
@@ -143,10 +145,13 @@ class Breaking:
             self._body_of = state.model.geom_bodyid.tolist()
         totals = self._contact_totals(state)
         self.force = max(self.force, *totals.values(), 0.0)
-        self._pressed = any(total > PRESSED * self._watched[body].calm for body, total in totals.items())
+        self._pressed = any(total > max(LIGHT, PRESSED * self._watched[body].calm) for body, total in totals.items())
         detached: list[Detachment] = []
         for body, total in totals.items():
             fragment = self._watched[body]
+            if total >= fragment.calm and not len(fragment.graph.response):
+                fragment.graph = fragment.graph.assembled()
+                fragment.calm = _calm(fragment.graph)
             if total >= fragment.calm:
                 detached += self._check(state, body, fragment)
         if detached:
@@ -217,8 +222,6 @@ class Breaking:
         new: list[Fragment] = []
         for fragment in self.fragments:
             parts = fragment.graph.fragments()
-            if len(parts) == 1 and not len(parts[0].response) and len(parts[0].bonds):
-                parts = (parts[0].assembled(),)
             if len(parts) == 1:
                 new.append(fragment)
                 continue
@@ -227,8 +230,8 @@ class Breaking:
             self.intact = False
             for part, group in zip(parts, groups, strict=True):
                 lead = state.world.scene.things[group[0]].name
-                whole = part.assembled() if len(part.bonds) else part
-                new.append(Fragment(body=lead, graph=whole, origin=part.centres[0].copy(), calm=_calm(whole)))
+                calm = LIGHT if len(part.bonds) else math.inf
+                new.append(Fragment(body=lead, graph=part, origin=part.centres[0].copy(), calm=calm))
         self.fragments = new
 
     def _near(self, state: State) -> bool:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from prolepsis.scene.world import friction_of
 from prolepsis.state import State
 
@@ -13,32 +15,24 @@ class Wetting:
         """Attach to a simulation."""
         self._things = state.world.scene.things
         self._names = {thing.name: i for i, thing in enumerate(self._things)}
-        self._wet: set[str] = set()
+        liquids = {thing.name for thing in self._things if "Liquid" in thing.roles}
+        self._liquid = np.array([thing.whole in liquids and "Blob" in thing.roles for thing in self._things])
+        self._wet = np.array(["Blob" in thing.roles for thing in self._things])
 
     def tick(self, state: State) -> None:
         """Wet what touches a blob of a liquid."""
-        data = state.data
-        if not state.version or not data.ncon:
+        if not state.version or not state.data.ncon:
             return  # nothing has broken, so nothing has come free
-        for pair, address in zip(data.contact.geom.tolist(), data.contact.efc_address.tolist(), strict=True):
-            if address < 0:
-                continue
-            first, second = (int(state.body_thing[state.model.geom_bodyid[g]]) for g in pair)
-            if first < 0 or second < 0:
-                continue
-            for liquid, solid in ((first, second), (second, first)):
-                if self._is_liquid(liquid) and "Blob" not in self._things[solid].roles:
-                    self._wetten(state, solid)
-
-    def _is_liquid(self, index: int) -> bool:
-        thing = self._things[index]
-        return "Blob" in thing.roles and "Liquid" in self._things[self._names[str(thing.whole)]].roles
+        contact = state.data.contact
+        pairs = state.body_thing[state.model.geom_bodyid[contact.geom[contact.efc_address >= 0]]]
+        pairs = pairs[(pairs >= 0).all(axis=1)]
+        touching = self._liquid[pairs] & ~self._wet[pairs[:, ::-1]]
+        for index in set(pairs[:, ::-1][touching].tolist()):
+            self._wetten(state, index)
 
     def _wetten(self, state: State, index: int) -> None:
         thing = self._things[index]
-        if thing.name in self._wet:
-            return
-        self._wet.add(thing.name)
+        self._wet[index] = True
         names = [thing.name]
         while thing.whole is not None:
             names.append(thing.whole)
