@@ -131,6 +131,17 @@ class Chaining:
         return new
 
 
+def clashes(axioms: Iterable[Axiom]) -> bool:
+    """Return whether chaining finds something that belongs to two disjoint classes; if not, nothing is decided."""
+    axioms = tuple(axioms)
+    chaining = Chaining(axioms)
+    while chaining.step():
+        pass
+    trees = [parse_axiom(axiom.text) for axiom in axioms if axiom.text.startswith("DisjointClasses")]
+    groups = [tree[1:] for tree in trees if isinstance(tree, tuple)]
+    return any(sum(c in types for c in classes) > 1 for classes in groups for types in chaining.types.values())
+
+
 def chain(axioms: Iterable[Axiom]) -> dict[str, set[str]]:
     """Return individual to classes, both as bracketed IRIs, for all that follows by chaining."""
     chaining = Chaining(axioms)
