@@ -46,13 +46,16 @@ def refuse_unknown_names(documents: tuple[Document, ...], vocabulary: Vocabulary
         UnknownNameError: With file and line, and the nearest known name.
     """
     declared = {s for d in documents for s in d.graph.subjects(RDF.type, None) if isinstance(s, URIRef)}
-    shapes = {s for d in documents for s in d.graph.subjects(RDF.type, PRO.ShapeKind)}
-    properties = {i for i in declared if local_name(i) in vocabulary.properties}
-    classes = {i for i in declared if local_name(i) in vocabulary.classes}
+    individuals = {
+        s
+        for d in documents
+        for s, kind in d.graph.subject_objects(RDF.type)
+        if isinstance(s, URIRef) and not str(kind).startswith(str(OWL)) and kind != PRO.ShapeKind
+    }
     names = {
         "class": sorted(vocabulary.classes),
         "property": sorted(vocabulary.properties),
-        "individual": sorted(local_name(i) for i in declared - properties - classes - shapes),
+        "individual": sorted(local_name(i) for i in individuals),
     }
 
     def refuse(what: str, iri: URIRef, document: Document) -> UnknownNameError:
