@@ -6,6 +6,7 @@ import os
 import signal
 import threading
 from collections.abc import Iterator
+from typing import Any
 
 import pytest
 
@@ -43,6 +44,28 @@ def session() -> Iterator[Session]:
     [
         ("holds(F, T", "syntax error at column"),
         ("", "syntax error"),
+        ("Holds(F,T)", "column 5: .*a predicate's name begins with a small letter, and Holds is a variable"),
+        ("holds (F,T)", "column 6: .*no space may stand between holds and its bracket"),
+        ("holds(F,T),", "column 12: .*a bracket or a comma stands where a term should"),
+        ("holds(F,T) occurs(E,S)", "column 11: .*two terms stand side by side"),
+        ("true,\nholds(F,T))", "line 2, column 10"),
+        ("X = 'a", "a quoted name has no closing quote"),
+        ("X = 'a\0b'", "syntax error at column 7: no character of a text"),
+        ("X = '\ud800'", "syntax error at column 6: no character of a text"),
+        ("true, " * 9000 + "true", "the goal has 54,004 characters; at most 20,000 are read"),
+        ("broken(X)", r"unknown predicate broken/1; broken is a type of fluent; ask holds\(broken\(X\), T\)"),
+        ("closinggripper(X)", "did you mean the event closingGripper, asked by occurs/2"),
+        ("a :- b", "a query is one goal; rules are added as chronicles"),
+        ("3", "not a goal: 3; a goal is a predicate with arguments"),
+        ("X > 1", "a value is needed before it is known"),
+        ("read(X)", r"not permitted: read\(_\): a query only reads"),
+        ("lists:append(X, Y, [a])", "without the name of its module"),
+        ("X = f(X), length(X, N)", "list"),
+        ("put_attr(X, a, b)", "not permitted: put_attr"),
+        ("freeze(X, true)", "not permitted: freeze"),
+        ("X is 2**100000", "an answer that Python cannot hold"),
+        ("X = point{x: 1}", "an answer that Python cannot hold"),
+        ("length(L, 5000), foldl([_, A, f(A)]>>true, L, a, D)", "an answer that Python cannot hold"),
         ("holds(F,T). holds(G,T)", "more than one goal"),
         ("hold(F,T)", "unknown predicate hold/2; did you mean holds/2"),
         ("findall(X, hols(X,T), L)", "unknown predicate hols/2; did you mean holds/2"),
@@ -91,6 +114,11 @@ def test_answers_are_values(session: Session) -> None:
     assert session.ask(egg, "X = f(X)")[0]["X"] is not None
     assert session.ask(egg, "member(X, [b, a, b])") == [{"X": "b"}, {"X": "a"}]
     assert session.ask(egg, "repeat, member(X, [a, b])", limit=2) == [{"X": "a"}, {"X": "b"}]
+    assert session.ask(egg, "X is 1 rdiv 3, Y = '😀', Z = \"text\", W = 'ü b'") == [
+        {"X": Term("rdiv", (1, 3)), "Y": "😀", "Z": "text", "W": "ü b"}
+    ]
+    assert session.ask(egg, "findall(N, between(1, 50000, N), L)")[0]["L"] == tuple(range(1, 50001))
+    assert len(session.ask(egg, "between(1, inf, X)", limit=100_000)) == 100_000
     assert session.ask(egg, "X = 'a\\tb\\nc'") == [{"X": "a\tb\nc"}]
 
 
@@ -116,9 +144,61 @@ def test_a_session_whose_process_was_killed_answers_again(session: Session) -> N
     process = session._process  # pyright: ignore[reportPrivateUsage]
     assert process is not None
     os.kill(process.process_id, signal.SIGKILL)
-    with pytest.raises(GoalLimitError):
-        session.ask(egg, "holds(F, T)")
     assert session.ask(egg, "holds(broken(X), _)") == [{"X": "egg1"}]
+
+
+@pytest.mark.parametrize(
+    ("limits", "message"),
+    [
+        ({"limit": 0}, "limit: a whole number of answers, at least 1, not 0"),
+        ({"limit": -1}, "not -1"),
+        ({"limit": 2.5}, "not 2.5"),
+        ({"time_limit": 0}, "time_limit: a number of seconds above 0"),
+        ({"time_limit": -1.0}, "not -1.0"),
+        ({"time_limit": float("nan")}, "not nan"),
+        ({"time_limit": float("inf")}, "not inf"),
+    ],
+)
+def test_limits_must_make_sense(session: Session, limits: dict[str, Any], message: str) -> None:
+    with pytest.raises(GoalError, match=message):
+        session.ask(timeline(), "true", **limits)
+
+
+def test_a_thread_is_answered_while_the_queries_of_others_are_stopped(session: Session) -> None:
+    egg = timeline()
+    told: list[str] = []
+
+    def fail(goal: str, time_limit: float) -> None:
+        try:
+            session.ask(egg, goal, time_limit=time_limit)
+        except GoalLimitError as error:
+            told.append(str(error).partition(":")[0])
+
+    endless = threading.Thread(target=fail, args=("repeat, fail", 0.5))
+    boundless = threading.Thread(target=fail, args=("findall(X, between(1, 10000000, X), L)", 60.0))
+    for thread in (endless, boundless):
+        thread.start()
+    while endless.is_alive() or boundless.is_alive():
+        assert session.ask(egg, "holds(broken(X), _)") == [{"X": "egg1"}]
+    assert sorted(told) == ["memory limit of 256 MB reached", "time limit of 0.5 s reached"]
+
+
+def test_all_threads_are_answered_when_the_process_is_killed_between(session: Session) -> None:
+    egg = timeline()
+    answers: list[object] = []
+
+    def ask() -> None:
+        answers.extend(session.ask(egg, "between(1, 200000, N), N >= 200000, holds(broken(X), _)") for _ in range(3))
+
+    threads = [threading.Thread(target=ask) for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    process = session._process  # pyright: ignore[reportPrivateUsage]
+    assert process is not None
+    os.kill(process.process_id, signal.SIGKILL)
+    for thread in threads:
+        thread.join()
+    assert answers == [[{"N": 200000, "X": "egg1"}]] * 9
 
 
 def test_two_threads_ask_two_runs_at_once(session: Session) -> None:

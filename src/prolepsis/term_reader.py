@@ -15,13 +15,14 @@ DEEPEST = 150
 _LAYOUT = re.compile(r"(?:\s+|%[^\n]*|/\*.*?\*/)*", re.DOTALL)
 _TOKEN = re.compile(
     rf"""
-    (?P<number>0x[0-9a-fA-F]+|0o[0-7]+|0b[01]+|0'(?:\\.|''|[^\\'])
+    (?P<rational>\d+r\d+)
+    |(?P<number>0x[0-9a-fA-F]+|0o[0-7]+|0b[01]+|0'(?:\\.|''|[^\\'])
        |\d+\.\d+(?:[eE][+-]?\d+|Inf|NaN)?|\d+[eE][+-]?\d+|\d+)
     |(?P<variable>[A-Z_]\w*)
     |(?P<name>[^\W\d_]\w*)
     |(?P<quoted>'(?:\\x[0-9a-fA-F]+\\|\\[0-7]+\\|\\.|''|[^\\'])*')
     |(?P<string>"(?:\\x[0-9a-fA-F]+\\|\\[0-7]+\\|\\.|""|[^\\"])*")
-    |(?P<symbol>[{re.escape(SYMBOLS)}]+|;|!)
+    |(?P<symbol>[{re.escape(SYMBOLS)}]+|;|!|[^\w\s\x00-\x7f]+)
     |(?P<punctuation>[()\[\]{{}},|])
     """,
     re.VERBOSE | re.DOTALL,
@@ -67,9 +68,17 @@ def _number(text: str) -> int | float:
     return float(text) if "." in text or "e" in text or "E" in text else int(text)
 
 
+def _rational(text: str) -> Value:
+    above, below = text.split("r")
+    return Term("rdiv", (int(above), int(below)))
+
+
 def read_term(text: str, where: str) -> Value:
     """Return the one value in ``text``; see ``prolepsis.terms.parse_term``."""
-    return _Reader(text, where).read()
+    try:
+        return _Reader(text, where).read()
+    except ValueError as error:
+        raise InputError(f"{where}: a number has too many digits") from error
 
 
 class _Reader:
@@ -79,6 +88,7 @@ class _Reader:
         self.text = text
         self.where = where
         self.depth = 0
+        self.in_arguments = False
         self.token = self._scan(0)
 
     def read(self) -> Value:
@@ -131,11 +141,18 @@ class _Reader:
         self.depth -= 1
         return value
 
+    def _inside(self, arguments: bool) -> Value:
+        """Return a term between brackets; among arguments, a comma or a bar ends it."""
+        outer, self.in_arguments = self.in_arguments, arguments
+        value = self._term(1200)
+        self.in_arguments = outer
+        return value
+
     def _infix(self, left: Value, priority: int, limit: int) -> Value:
         while True:
             name = self.token.text if self.token.kind in ("name", "symbol", "punctuation") else ""
             operator = INFIX.get(name)
-            if operator is None:
+            if operator is None or (self.in_arguments and name in (",", "|")):
                 return left
             own, kind = operator
             if own > limit or priority > (own if kind[0] == "y" else own - 1):
@@ -151,6 +168,9 @@ class _Reader:
             case "number":
                 self._next()
                 return _number(token.text), 0
+            case "rational":
+                self._next()
+                return _rational(token.text), 0
             case "variable":
                 self._next()
                 return Variable(token.text), 0
@@ -171,7 +191,7 @@ class _Reader:
 
     def _bracketed(self, token: _Token) -> Value:
         if token.text == "(":
-            value = self._term(1200)
+            value = self._inside(arguments=False)
             self._take(")", "an operator or ')'")
             return value
         if token.text == "[":
@@ -182,7 +202,7 @@ class _Reader:
         if self.token.text == "}":
             close = self._next()
             return self._compound("{}", close)
-        value = self._term(1200)
+        value = self._inside(arguments=False)
         self._take("}", "an operator or '}'")
         return Term("{}", (value,))
 
@@ -192,6 +212,8 @@ class _Reader:
             return self._compound(name, token), 0
         if name == "-" and self.token.kind == "number" and self.token.start == token.end:
             return -_number(self._next().text), 0
+        if name == "-" and self.token.kind == "rational" and self.token.start == token.end:
+            return _rational("-" + self._next().text), 0
         operator = PREFIX.get(name)
         if operator is None or self._ends_operand():
             return name, 0
@@ -218,23 +240,23 @@ class _Reader:
         if not self._opens_arguments(token):
             return name
         self._next()
-        arguments = [self._term(999)]
+        arguments = [self._inside(arguments=True)]
         while self.token.text == ",":
             self._next()
-            arguments.append(self._term(999))
+            arguments.append(self._inside(arguments=True))
         self._take(")", "',' or ')'")
         return Term(name, tuple(arguments))
 
     def _list(self) -> Value:
-        items = [self._term(999)]
+        items = [self._inside(arguments=True)]
         while self.token.text == ",":
             self._next()
-            items.append(self._term(999))
+            items.append(self._inside(arguments=True))
         if self.token.text != "|":
             self._take("]", "',', '|' or ']'")
             return tuple(items)
         self._next()
-        tail = self._term(999)
+        tail = self._inside(arguments=True)
         self._take("]", "']'")
         if isinstance(tail, tuple):
             return (*items, *tail)

@@ -89,8 +89,18 @@ PREFIX: dict[str, tuple[int, str]] = {
 }
 SYMBOLS = "#$&*+-./:<=>?@^~\\"
 
-_PLAIN_ATOM = re.compile(rf"[^\W\d_A-Z]\w*|[{re.escape(SYMBOLS)}]+|\[\]|\{{\}}|!|;")
-_ESCAPES = {"\\": "\\\\", "'": "\\'", "\n": "\\n", "\t": "\\t", "\a": "\\a", "\b": "\\b", "\f": "\\f", "\v": "\\v"}
+_PLAIN_SYMBOL = re.compile(rf"[{re.escape(SYMBOLS)}]+|\{{\}}|!|;")
+_ESCAPES = {
+    "\\": "\\\\",
+    "'": "\\'",
+    "\n": "\\n",
+    "\r": "\\r",
+    "\t": "\\t",
+    "\a": "\\a",
+    "\b": "\\b",
+    "\f": "\\f",
+    "\v": "\\v",
+}
 
 
 def parse_term(text: str, *, where: str = "term") -> Value:
@@ -114,11 +124,14 @@ def format_value(value: Value) -> str:
 
 
 def format_atom(name: str) -> str:
-    """Return the atom called ``name``, quoted where Prolog needs it."""
-    plain = _PLAIN_ATOM.fullmatch(name) and name not in (".", "[]") and not name.startswith("/*")
-    if plain and not (name[0].isalpha() and (name[0].isupper() or name[0].istitle())):
+    """Return the atom called ``name``, quoted where Prolog needs it; symbols beyond ASCII always are."""
+    if name.isidentifier():
+        plain = name[0] != "_" and not (name[0].isupper() or name[0].istitle())
+    else:
+        plain = _PLAIN_SYMBOL.fullmatch(name) is not None and name != "." and not name.startswith("/*")
+    if plain:
         return name
-    return "'" + "".join(_ESCAPES.get(c) or (c if c.isprintable() else f"\\x{ord(c):x}\\") for c in name) + "'"
+    return "'" + "".join(_ESCAPES.get(c) or (c if c.isprintable() else f"\\x{ord(c):X}\\") for c in name) + "'"
 
 
 def _format_number(number: int | float) -> str:
@@ -128,7 +141,11 @@ def _format_number(number: int | float) -> str:
         return "1.5NaN"
     if math.isinf(number):
         return "1.0Inf" if number > 0 else "-1.0Inf"
-    mantissa, _, exponent = repr(number).partition("e")
+    text = repr(number)
+    if abs(number) >= 1e15 and "e" not in text:  # Prolog changes to exponents one place earlier
+        digits = text.removesuffix(".0").lstrip("-")
+        text = f"{'-' if number < 0 else ''}{digits[0]}.{digits[1:].rstrip('0') or '0'}e{len(digits) - 1}"
+    mantissa, _, exponent = text.partition("e")
     if not exponent:
         return mantissa
     return f"{mantissa if '.' in mantissa else mantissa + '.0'}e{int(exponent):+d}"
@@ -163,7 +180,8 @@ def _format_infix(name: str, left: Value, right: Value) -> str:
     if name == ",":
         return f"{first},{second}"
     if name[0].isalpha():
-        return f"{first} {name} {second}"
+        # Before "(" the operator would be a functor.
+        return _glue(first, name) + ("" if second[0] in "[{'" else " ") + second
     return _glue(_glue(first, name), second)
 
 

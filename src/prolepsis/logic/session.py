@@ -6,24 +6,28 @@ too much, and starts the process again should it die. Facts are loaded when a ti
 
 from __future__ import annotations
 
-import difflib
 import os
+import re
 import threading
 import weakref
 from functools import lru_cache
 from pathlib import Path
 
 from prolepsis.errors import GoalError, GoalLimitError, InputError
-from prolepsis.logic.process import STACK_LIMIT, ProcessLost, PrologProcess
+from prolepsis.logic.process import ProcessLost, PrologProcess
+from prolepsis.logic.refusals import refusal, shown
 from prolepsis.logic.run_file import write_run
-from prolepsis.terms import Value, format_atom, parse_term
+from prolepsis.terms import Value, format_atom, format_value, parse_term
 from prolepsis.timeline import Timeline
 
 GRACE = 5.0
 """Time beyond its limit after which a query that does not even stop is ended with its process [s]."""
 LOAD_LIMIT = 600.0
 """Longest time for loading one run [s]."""
-PERMITTED = "a query only reads the timeline and computes; it may not change facts, reach files or start programs"
+LONGEST = 86_400.0
+"""Longest time limit [s]."""
+LONGEST_GOAL = 20_000
+"""Longest goal [characters]."""
 
 
 class Session:
@@ -38,6 +42,7 @@ class Session:
         self._chronicles = tuple(Path(file).resolve() for file in chronicles)
         self._process: PrologProcess | None = None
         self._lock = threading.RLock()
+        self._alone = threading.Lock()
         self._names: dict[int, str] = {}
         self._loaded: set[str] = set()
         self._made = 0
@@ -55,6 +60,12 @@ class Session:
             timeline: The facts.
             run: Name by which ``in(Run, Goal)`` finds it; made up when ``None``.
         """
+        try:
+            return self._load(timeline, run)
+        except ProcessLost:
+            raise GoalLimitError(f"a run of {len(timeline.facts)} facts could not be loaded") from None
+
+    def _load(self, timeline: Timeline, run: str | None = None) -> str:
         with self._lock:
             process = self._running()
             key = id(timeline)
@@ -73,7 +84,7 @@ class Session:
                     process.call(goal, LOAD_LIMIT)
                 except ProcessLost:
                     self._lose(process)
-                    raise GoalLimitError(f"run {name!r} of {len(timeline.facts)} facts could not be loaded") from None
+                    raise
                 file.unlink()
                 self._loaded.add(name)
                 weakref.finalize(timeline, self._forget, key, name)
@@ -83,23 +94,35 @@ class Session:
         self, timeline: Timeline, goal: str, *, limit: int | None = None, time_limit: float = 10.0
     ) -> list[dict[str, Value]]:
         """Return the answers to ``goal`` about a timeline; see ``Timeline.ask``."""
-        if limit is not None and limit < 1:
-            raise GoalError(f"limit: at least 1 answer, not {limit}")
-        name = self.load(timeline)
-        process = self._running()
-        count = "inf" if limit is None else str(limit)
-        call = f"answers:ask({format_atom(name)}, {format_atom(goal)}, {count}, {time_limit}, Reply)"
+        goal = goal.strip()
+        _check_question(goal, limit, time_limit)
         try:
-            reply = process.call(call, time_limit + GRACE)
+            reply = self._reply(timeline, goal, limit, time_limit)
         except ProcessLost as lost:
-            self._lose(process)
-            if str(lost) == "time":
-                raise GoalLimitError(f"time limit of {time_limit:g} s reached: {goal!r}") from None
-            raise GoalLimitError(f"memory limit reached: {goal!r}") from None
+            if str(lost) == "gone":  # perhaps by no fault of ours: it is asked again, alone
+                with self._alone:
+                    try:
+                        reply = self._reply(timeline, goal, limit, time_limit)
+                    except ProcessLost:
+                        raise GoalLimitError(f"memory limit reached: {shown(goal)}") from None
+            else:
+                raise GoalLimitError(f"time limit of {time_limit:g} s reached: {shown(goal)}") from None
         status, _, body = reply.partition("\n")
         if status != "ok":
-            raise _refusal(status, body, goal, time_limit)
+            raise refusal(status, body, goal, time_limit, timeline)
         return _answers(body)
+
+    def _reply(self, timeline: Timeline, goal: str, limit: int | None, time_limit: float) -> str:
+        name = self._load(timeline)
+        process = self._running()
+        count = "inf" if limit is None else str(limit)
+        seconds = format_value(float(time_limit))
+        call = f"answers:ask({format_atom(name)}, {format_atom(goal)}, {count}, {seconds}, Reply)"
+        try:
+            return process.call(call, time_limit + GRACE)
+        except ProcessLost:
+            self._lose(process)
+            raise
 
     def close(self) -> None:
         """End the process; the next question starts another."""
@@ -143,12 +166,33 @@ def shared_session() -> Session:
     return Session()
 
 
+def _check_question(goal: str, limit: object, time_limit: float) -> None:
+    if limit is not None and (not isinstance(limit, int) or isinstance(limit, bool) or limit < 1):
+        raise GoalError(f"limit: a whole number of answers, at least 1, not {limit!r}")
+    if not 0 < time_limit <= LONGEST:
+        raise GoalError(f"time_limit: a number of seconds above 0 and at most {LONGEST:g}, not {time_limit!r}")
+    if len(goal) > LONGEST_GOAL:
+        raise GoalError(f"the goal has {len(goal):,} characters; at most {LONGEST_GOAL:,} are read")
+    for place, character in enumerate(goal, start=1):
+        if character == "\0" or "\ud800" <= character <= "\udfff":
+            raise GoalError(f"syntax error at column {place}: no character of a text: {character!r}")
+
+
+_NUMBER = re.compile(r"-?[0-9]{1,18}(\.[0-9]+)?")
+_NAME = re.compile(r"[a-z][A-Za-z0-9_]*")
+
+
 @lru_cache(maxsize=65536)
 def _value(text: str) -> Value:
+    number = _NUMBER.fullmatch(text)
+    if number:
+        return float(text) if number.group(1) else int(text)
+    if _NAME.fullmatch(text):
+        return text
     try:
         return parse_term(text, where="answer")
     except (InputError, RecursionError) as error:
-        raise GoalError(f"an answer is too deep or not a term: {text[:80]!r}") from error
+        raise GoalError(f"an answer that Python cannot hold (too deep, or no plain term): {text[:80]!r}") from error
 
 
 def _answers(body: str) -> list[dict[str, Value]]:
@@ -157,36 +201,3 @@ def _answers(body: str) -> list[dict[str, Value]]:
     if not names:
         return [{} for _ in rows]
     return [dict(zip(names, map(_value, row.split("\t")), strict=True)) for row in rows]
-
-
-def _refusal(status: str, body: str, goal: str, time_limit: float) -> GoalError:
-    """Return the error for a goal that was refused: what, where, and what is allowed."""
-    match status:
-        case "syntax":
-            position, message = body.split("\n", 1)
-            return GoalError(f"syntax error at column {int(position) + 1}: {message}: {goal!r}")
-        case "predicate":
-            name, known = body.split("\n", 1)
-            return GoalError(f"unknown predicate {name}; {_nearest(name, known.split(chr(9)))}")
-        case "relation":
-            relations = "before, after, meets, met_by, overlaps, overlapped_by, starts, started_by, during, contains, "
-            return GoalError(f"unknown relation {body!r}; known: {relations}finishes, finished_by, equals")
-        case "permission":
-            return GoalError(f"not permitted: {body}: {PERMITTED}")
-        case "unbound":
-            return GoalError(f"not permitted: a goal that is known only when the query runs: {goal!r}")
-        case "interval":
-            return GoalError(f"not an interval: {body}; an interval is Start-End, with Start before End")
-        case "time":
-            return GoalLimitError(f"time limit of {time_limit:g} s reached: {goal!r}")
-        case "memory":
-            return GoalLimitError(f"memory limit of {STACK_LIMIT} MB reached: {goal!r}")
-        case _:
-            return GoalError(f"{body.strip() or status}: {goal!r}")
-
-
-def _nearest(name: str, known: list[str]) -> str:
-    near = difflib.get_close_matches(name, known, n=1, cutoff=0.7)
-    if near:
-        return f"did you mean {near[0]}?"
-    return "see docs/queries.md; among others: holds/2, occurs/2, fluentT/2, eventT/2, argsOf/2, objOf/2, allen/3"

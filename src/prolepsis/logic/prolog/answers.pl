@@ -26,18 +26,18 @@ ask(Run, Text, Limit, Seconds, Reply) :-
     atomics_to_string(Lines, Reply).
 
 answers(Run, Text, Limit, Seconds, Lines) :-
-    read_goal(Text, Goal0, Bindings),
-    check_goal(Goal0),
-    order_goal(Goal0, Goal),
+    read_goal(Text, Goal, Bindings),
     pairs(Bindings, Names, Values),
-    % Nothing that is permitted changes a fact; should it ever, snapshot/1 undoes it.
-    call_with_time_limit(Seconds,
-                         snapshot(findall(Answer,
-                                          limit(Limit, distinct(Answer, answer(Run, Goal, Values, Answer))),
-                                          Answers))),
+    call_with_time_limit(Seconds, found(Run, Goal, Values, Limit, Answers)),
     atomic_list_concat(Names, '\t', Header),
     atomic_list_concat([Header|Answers], '\n', Body),
     Lines = ["ok\n", Body].
+
+found(Run, Goal0, Values, Limit, Answers) :-
+    check_goal(Goal0),
+    order_goal(Goal0, Goal),
+    % Nothing that is permitted changes a fact; should it ever, snapshot/1 undoes it.
+    snapshot(findall(Answer, limit(Limit, distinct(Answer, answer(Run, Goal, Values, Answer))), Answers)).
 
 answer(Run, Goal, Values, Answer) :-
     with_run(Run, query:Goal),
@@ -124,6 +124,12 @@ refusal(unknown_predicate(PI), ["predicate\n", Text, "\n", Known]) :-
     atomic_list_concat(Sorted, '\t', Known).
 refusal(unknown_relation(Name), ["relation\n", Text]) :-
     format(string(Text), '~w', [Name]).
-refusal(not_permitted(Goal), ["permission\n", Text]) :-
-    format(string(Text), '~q', [Goal]).
+refusal(not_permitted(Goal), [Kind, Text]) :-
+    (   callable(Goal), Goal \== []
+    ->  ( Goal = _:_ -> Kind = "module\n" ; Kind = "permission\n" )
+    ;   Kind = "goal\n"
+    ),
+    term_variables(Goal, Variables),
+    maplist(=('$VAR'('_')), Variables),
+    format(string(Text), '~W', [Goal, [quoted(true), numbervars(true), max_depth(20)]]).
 refusal(unbound_goal, ["unbound"]).

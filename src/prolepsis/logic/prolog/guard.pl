@@ -161,6 +161,7 @@ walk_quantified(Goal) => walk(Goal).
 
 walk_closure(Closure, _), var(Closure) => walk(Closure).
 walk_closure(_/Lambda, Extra) => walk_closure(Lambda, Extra).
+walk_closure(_/Parameters>>Body, Extra) => walk_closure(Parameters>>Body, Extra).
 walk_closure(Parameters>>Body, Extra), is_list(Parameters) =>
     length(Parameters, Count),
     More is max(0, Extra-Count),
