@@ -13,7 +13,7 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from rdflib import OWL, RDF, XSD, BNode, Graph, Literal, URIRef
+from rdflib import OWL, RDF, XSD, Graph, Literal, URIRef
 from rdflib.collection import Collection
 from rdflib.term import Node
 
@@ -197,8 +197,3 @@ def _cells(entry: Property, iri: str, points: set[Scalar]) -> Cells:
     for low, high in zip(bounds, [*bounds[1:], math.inf], strict=True):
         samples += [low, (low + high) / 2 if high < math.inf else low + 1.0 + abs(low)]
     return Cells(iri, tuple(samples), tuple(bounds))
-
-
-def is_expression(node: Node) -> bool:
-    """Return whether ``node`` is an anonymous expression."""
-    return isinstance(node, BNode)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
-from rdflib import BNode, Graph, URIRef
+from rdflib import Graph, URIRef
 from rdflib.exceptions import ParserError
 from rdflib.plugins.parsers.notation3 import BadSyntax
 
@@ -26,21 +27,31 @@ class Document:
 
     path: Path
     """Where it was read."""
-    text: str
-    """What it says."""
     graph: Graph
     """Its triples."""
     built_in: bool = False
     """True for the ontology that comes with the package."""
+    lines: Mapping[str, int]
+    """Local name to the number of the line on which it is first written."""
 
     def where(self, iri: URIRef) -> str:
         """Return file and line at which ``iri`` is first written, or the file alone."""
-        local = re.escape(local_name(iri))
-        token = re.compile(rf"(?:[\w.-]*:{local}(?![\w-]))|<[^>]*[#/]{local}>")
-        for number, line in enumerate(self.text.splitlines(), start=1):
-            if token.search(line.split(" #", 1)[0] if not line.lstrip().startswith("#") else ""):
-                return f"{self.path}:{number}"
-        return str(self.path)
+        line = self.lines.get(local_name(iri))
+        return str(self.path) if line is None else f"{self.path}:{line}"
+
+
+_NAME = re.compile(r":([\w-]+(?:\.[\w-]+)*)|<[^>]*[#/]([^>#/]+)>")
+
+
+def first_lines(text: str) -> Mapping[str, int]:
+    """Return the number of the line on which each local name is first written, comments left out."""
+    found: dict[str, int] = {}
+    for number, line in enumerate(text.splitlines(), start=1):
+        if line.lstrip().startswith("#"):
+            continue
+        for match in _NAME.finditer(line.split(" #", 1)[0]):
+            found.setdefault(match.group(1) or match.group(2), number)
+    return found
 
 
 def local_name(iri: URIRef) -> str:
@@ -67,9 +78,10 @@ def read_turtle(path: Path, *, built_in: bool = False) -> Document:
         raise KnowledgeError(f"{path}:{error.lines + 1}: Turtle syntax: {_reason(error)}") from error
     except (ParserError, ValueError) as error:
         raise KnowledgeError(f"{path}: Turtle syntax: {' '.join(str(error).split())}") from error
-    return Document(path=path, text=text, graph=graph, built_in=built_in)
+    return Document(path=path, graph=graph, built_in=built_in, lines=first_lines(text))
 
 
+@cache
 def built_in_documents() -> tuple[Document, ...]:
     """Return the files of the ontology that comes with the package, sorted by name."""
     return tuple(read_turtle(path, built_in=True) for path in sorted(ONTOLOGY_FOLDER.glob("*.ttl")))
@@ -83,8 +95,3 @@ def _reason(error: BadSyntax) -> str:
 def documents_of(paths: Sequence[Path]) -> tuple[Document, ...]:
     """Return the built-in ontology and then the files at ``paths``."""
     return (*built_in_documents(), *(read_turtle(path) for path in paths))
-
-
-def is_blank(node: object) -> bool:
-    """Return whether ``node`` is a blank node."""
-    return isinstance(node, BNode)
