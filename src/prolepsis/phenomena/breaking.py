@@ -31,10 +31,18 @@ BETWEEN_SAMPLES = 0.9
 """Margin of the screen for contacts between its sampled points [1]."""
 LIGHT = 0.2
 """A fragment that is pressed less than this [N] is not computed: shards break at some newtons."""
-DRIFT = 3.0e-4
-"""A contact that has moved less than this [m], a twentieth of the spread of its force, loads the same bonds."""
 PRESSED = 0.1
 """Fragments pressed with less than this part of what the screen allows do not need short substeps [1]."""
+LOOK_TICKS = 4
+"""Under steady forces the loads are computed anew every so many ticks."""
+SLIDING = 1.3
+"""In that time a contact that slides at 0.3 m/s moves by a sixth of the spread of its force; its loads rise no more [1]."""
+STEADY_CHANGE = 0.02
+"""Contact forces are steady while they change by less than this part of what the screen allows [1] ..."""
+STEADY_GAP = 0.002
+"""... nothing is about to touch: what approaches at 2 m/s needs a tick for this way [m] ..."""
+STEADY_LOAD = 0.8
+"""... and no bond bears more than this part of its strength [1]."""
 TOGETHER = 0.9
 """Bonds within this fraction of the most overloaded one give way with it, which keeps a cascade short."""
 
@@ -49,16 +57,16 @@ class Fragment:
     """Place of the body's frame in the shell's frame [m], shape (3,)."""
     calm: float
     """Contact forces may add up to this before a bond can break [N]."""
-    checked: tuple[FloatArray, FloatArray, float] | None = None
-    """Points, forces and greatest load of the last full check."""
+    load: float = 0.0
+    """Greatest bond load over strength at the last full check [1]."""
+    rows: FloatArray | None = None
+    """All contact forces in the scene at the last full check [N], as MuJoCo lists them."""
 
-    def is_settled(self, points: FloatArray, forces: FloatArray) -> bool:
-        """Return whether the forces differ so little from those last checked that no bond can have come to break."""
-        if self.checked is None or self.checked[0].shape != points.shape:
+    def is_steady(self, rows: FloatArray) -> bool:
+        """Return whether contact forces differ so little from those last checked that no bond can have come to break."""
+        if self.rows is None or self.rows.shape != rows.shape:
             return False
-        moved = np.abs(points - self.checked[0]).max()
-        changed = np.sqrt(np.einsum("ij,ij->i", *(2 * [forces - self.checked[1]]))).sum()
-        return bool(moved < DRIFT and 1.1 * self.checked[2] + changed / self.calm < 1)
+        return SLIDING * self.load + float(np.abs(rows - self.rows).sum()) / self.calm < 1
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -119,7 +127,12 @@ class Breaking:
         self.force = 0.0
         """Greatest sum of normal forces on one body in the tick [N]."""
         self._pressed = False
-        self._body_of: list[int] = []
+        self._pressed_most = -1
+        self._fresh = True
+        self._ticks = 0
+        self._steady = False
+        self._active = -1
+        self._last: tuple[int, dict[int, float]] = (-1, {})
         self._stiffness = 0.0
         self._version = -1
         self._watched: dict[int, Fragment] = {}
@@ -128,59 +141,91 @@ class Breaking:
     def substep(self, state: State) -> float:
         """Return the substep that breaking needs now [s], and bring the contact's stiffness up to date."""
         self.force, self.load = 0.0, 0.0
-        if self.intact:
-            near = self._near(state)
-            self._set_stiffness(state, self._place_of_contact(state, near))
-            return CONTACT_STEP if near else MAX_STEP
-        return FRAGMENT_STEP if self._pressed else MAX_STEP
+        self._ticks += 1
+        self._fresh = self._ticks % LOOK_TICKS == 0
+        if not self.intact:
+            return FRAGMENT_STEP if self._pressed else MAX_STEP
+        near = self._near(state)
+        pressed = near and 0 <= self._pressed_most < state.data.ncon
+        self._set_stiffness(state, state.data.contact.pos[self._pressed_most] if pressed else None)
+        return CONTACT_STEP if near else MAX_STEP
+
+    def is_steady(self) -> bool:
+        """Return whether no bond can come to break within a tick, so that its substeps need not be looked at one by one.
+
+        So it is while no contact is new or about to close and the forces hardly change.
+        """
+        return self._steady and self.load < STEADY_LOAD
 
     def act(self, state: State) -> list[Detachment]:
         """Break what the contact forces of the last substep overload, and return the detached bonds."""
         if not state.data.ncon:
+            self._steady = False
             return []
         if self._version != state.version:
             self._version = state.version
             bodies = {f.body: f for f in self.fragments if len(f.graph.bonds)}
             self._watched = {state.model.body(name).id: fragment for name, fragment in bodies.items()}
-            self._body_of = state.model.geom_bodyid.tolist()
         totals = self._contact_totals(state)
+        self._compare(state, totals)
         self.force = max(self.force, *totals.values(), 0.0)
         self._pressed = any(total > max(LIGHT, PRESSED * self._watched[body].calm) for body, total in totals.items())
         detached: list[Detachment] = []
         for body, total in totals.items():
             fragment = self._watched[body]
-            if total >= fragment.calm and not len(fragment.graph.response):
-                fragment.graph = fragment.graph.assembled()
-                fragment.calm = _calm(fragment.graph)
             if total >= fragment.calm:
                 detached += self._check(state, body, fragment)
+        self._fresh = False
         if detached:
             state.set_attribute(self.thing.name, "broken", 1.0)
             state.set_attribute(self.shell_name, "broken", 1.0)
             self._fall_apart(state)
         return detached
 
+    def _compare(self, state: State, totals: dict[int, float]) -> None:
+        """Find out whether the contacts are as they were when last looked at."""
+        count, before = self._last
+        self._last = (self._active, totals)
+        self._steady = self._active == count and totals.keys() == before.keys()
+        if self._steady:
+            self._steady = all(abs(totals[b] - before[b]) < STEADY_CHANGE * self._watched[b].calm for b in totals)
+        if self._steady and self._active < state.data.ncon:
+            contact = state.data.contact
+            self._steady = bool((contact.dist[contact.efc_address < 0] > STEADY_GAP).all())
+
     def _contact_totals(self, state: State) -> dict[int, float]:
         """Return the sum of the normal forces on each body that may break [N], by body."""
-        # Plain lists: for the handful of contacts that there are, they are faster than arrays.
-        data, body_of = state.data, self._body_of
-        force = data.efc_force
         totals = dict.fromkeys(self._watched, 0.0)
-        for (first, second), address in zip(data.contact.geom.tolist(), data.contact.efc_address.tolist(), strict=True):
-            if address >= 0:
-                for geom in (first, second):
-                    if body_of[geom] in totals:
-                        totals[body_of[geom]] += float(force[address])
+        self._pressed_most, greatest = -1, 0.0
+        forces = state.normal_forces()
+        self._active = len(forces)
+        for contact, first, second, force in forces:
+            for body in (first, second):
+                if body in totals:
+                    totals[body] += force
+                    if force > greatest:
+                        self._pressed_most, greatest = contact, force
         return totals
 
     def _check(self, state: State, body: int, fragment: Fragment) -> list[Detachment]:
+        """Return what breaks of a fragment that is pressed hard enough to look at its bonds."""
+        if not len(fragment.graph.response):
+            fragment.graph = fragment.graph.assembled()
+            fragment.calm = _calm(fragment.graph)
+        forces = state.data.efc_force
+        # Between looks nothing slides far: if the forces stay, so do the loads.
+        if not self._fresh and fragment.is_steady(forces):
+            self.load = max(self.load, fragment.load)
+            return []
         contacts = state.contact_forces()
         second = contacts.bodies[:, 1] == body
         chosen = second | (contacts.bodies[:, 0] == body)
         sign = np.where(second[chosen], 1.0, -1.0)[:, None]
-        return self._break(
+        detached = self._break(
             state, fragment, contacts.points[chosen], sign * contacts.force[chosen], contacts.normal_force[chosen]
         )
+        fragment.rows = forces.copy()
+        return detached
 
     def _break(
         self, state: State, fragment: Fragment, points: FloatArray, forces: FloatArray, normal: FloatArray
@@ -188,16 +233,13 @@ class Breaking:
         turn = state.data.body(fragment.body).xmat.reshape(3, 3)
         local_points = (points - state.data.body(fragment.body).xpos) @ turn + fragment.origin
         local_forces = forces @ turn
-        if fragment.is_settled(local_points, local_forces):
-            self.load = max(self.load, fragment.checked[2] if fragment.checked else 0.0)
-            return []
         detached: list[Detachment] = []
         graph = fragment.graph
         while len(graph.bonds):
             ratio = graph.loads(local_points, local_forces)
             worst = float(ratio.max())
             self.load = max(self.load, worst)
-            fragment.checked = (local_points, local_forces, worst)
+            fragment.load = worst
             if worst < 1:
                 break
             broken = ratio >= max(1.0, TOGETHER * worst)
@@ -213,7 +255,6 @@ class Breaking:
             graph = graph.assembled()
         if detached:
             fragment.graph = graph
-            fragment.checked = None
             fragment.calm = _calm(graph) if len(graph.response) else math.inf
         return detached
 
@@ -238,17 +279,6 @@ class Breaking:
         """Return whether anything is near the intact thing."""
         geom = state.model.geom(f"{self.thing.name}/0").id
         return state.data.ncon > 0 and any(geom in pair for pair in state.data.contact.geom.tolist())
-
-    def _place_of_contact(self, state: State, near: bool) -> FloatArray | None:
-        """Return where the intact thing is pressed most, or None while nothing presses it."""
-        if not near:
-            return None
-        contacts = state.contact_forces()
-        body = state.model.body(self.thing.name).id
-        mine = (contacts.bodies == body).any(axis=1)
-        if not mine.any():
-            return None
-        return contacts.points[mine][int(contacts.normal_force[mine].argmax())]
 
     def _set_stiffness(self, state: State, point: FloatArray | None) -> None:
         """Give the contacts of the intact thing the stiffness of its shell where it touches (or will touch, below)."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from prolepsis.programs.commands import BaseTarget, CloseGripper, Command, HandSense, OpenGripper
 from prolepsis.robots.hand import Hand
-from prolepsis.state import ContactForces, State
+from prolepsis.state import State
 
 TOUCH_FORCE = 0.6
 """Greatest motor force before contact [N]: too weak to push away what is touched first."""
@@ -144,11 +144,14 @@ class HandControl:
         self._set_gains(-self.hand.opening_gain, -self.hand.opening_damping)
         self._data.ctrl[self._motor] = self.hand.opening_gain * (self._width - self._first_opening)
 
-    def measure(self, contacts: ContactForces) -> None:
-        """Read the pressure of the pads from the contacts of the last substep."""
-        self.pad_force = min(
-            float(contacts.normal_force[(contacts.bodies == finger).any(axis=1)].sum()) for finger in self._fingers
-        )
+    def measure(self, forces: list[tuple[int, int, int, float]]) -> None:
+        """Read the pressure of the pads from the normal forces of the last substep, as ``State`` gives them."""
+        pads = dict.fromkeys(self._fingers, 0.0)
+        for _, first, second, force in forces:
+            for body in (first, second):
+                if body in pads:
+                    pads[body] += force
+        self.pad_force = min(pads.values())
 
     def sense(self) -> HandSense:
         """Return what the hand knows of itself."""
