@@ -1,4 +1,4 @@
-"""The example in ``docs/ontology.md`` does what the page says."""
+"""The examples in ``docs/ontology.md`` do what the page says."""
 
 from __future__ import annotations
 
@@ -8,6 +8,10 @@ from pathlib import Path
 import pytest
 
 from prolepsis.knowledge import KnowledgeBase
+from prolepsis.knowledge.masses import TOLERANCE
+from prolepsis.knowledge.reasoner import LIMIT_VARIABLE, TIME_LIMIT
+from prolepsis.scenario import Scenario
+from prolepsis.terms import format_value
 
 PAGE = Path(__file__).parents[2] / "docs" / "ontology.md"
 
@@ -21,3 +25,22 @@ def test_the_example_of_the_page_loads_and_uses_its_class_defaults(tmp_path: Pat
     assert base.kind("egg1") == "QuailEgg" and base.is_a("egg1", "LiquidContainer")
     assert base.quantity("egg1", "length") == 0.0349
     assert sum(base.quantity(part, "mass") for part in base.parts("egg1")) == pytest.approx(0.0127)
+
+
+def test_the_scenario_of_the_page_is_read_as_it_says(tmp_path: Path) -> None:
+    match = re.search(r"```toml\n(.*?)```", PAGE.read_text(), re.S)
+    assert match is not None
+    (tmp_path / "page.toml").write_text(match.group(1))
+    (tmp_path / "egg_on_table.ttl").write_text(
+        "@prefix : <https://w3id.org/prolepsis#> . :t a :Table . :egg1 a :Egg ; :on :t . :hand1 a :Hand ; :z 1.0 ."
+    )
+    scenario = Scenario.load(tmp_path / "page.toml", {"force": "25"})
+    assert format_value(scenario.bound_plan()) == "sequence([grasp(hand1,egg1,25.0),lift(hand1,0.1)])"
+    assert (scenario.draw, scenario.monitors) == (True, {"egg1": ("load", "speed")})
+    assert scenario.knowledge_base().value("eggshell1", "friction").origin == "override"
+
+
+def test_the_limits_of_the_page_are_those_of_the_code() -> None:
+    text = PAGE.read_text()
+    assert f"longer than {TIME_LIMIT:g} s is refused" in text and LIMIT_VARIABLE in text
+    assert f"by more than {TOLERANCE:.1%}".replace("%", " %") in text
