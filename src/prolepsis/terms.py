@@ -131,7 +131,14 @@ def format_atom(name: str) -> str:
         plain = _PLAIN_SYMBOL.fullmatch(name) is not None and name != "." and not name.startswith("/*")
     if plain:
         return name
-    return "'" + "".join(_ESCAPES.get(c) or (c if c.isprintable() else f"\\x{ord(c):X}\\") for c in name) + "'"
+    return "'" + "".join(map(_escape, name)) + "'"
+
+
+def _escape(character: str) -> str:
+    # SWI-Prolog 9.0 takes escapes of the unused planes D8 to DF for surrogates, and reads the character itself.
+    if character in _ESCAPES or character.isprintable() or "\U000d8000" <= character <= "\U000dffff":
+        return _ESCAPES.get(character, character)
+    return f"\\x{ord(character):X}\\"
 
 
 def _format_number(number: int | float) -> str:

@@ -50,6 +50,10 @@ sandbox:safe_meta_predicate(timeline:in/2).
 
 read_goal(Text, Goal, Bindings) :-
     without_stop(Text, Bare),
+    (   Bare == ""
+    ->  throw(refused(syntax(0, 'the goal is empty')))
+    ;   true
+    ),
     % The line break ends a comment that the goal may end with.
     string_concat(Bare, "\n.", Whole),
     setup_call_cleanup(open_string(Whole, In),
@@ -69,15 +73,19 @@ anonymous(Name=_) :-
 
 read_only(In, Goal, Bindings) :-
     catch(( read_term(In, Goal, [variable_names(Bindings), module(query), syntax_errors(error)]),
-            read_term(In, Rest, [module(query), syntax_errors(error)]) ),
+            read_rest(In, Rest) ),
           error(syntax_error(What), Where),
           syntax_refusal(What, Where)),
-    (   ( Goal == end_of_file ; Goal == '.' )
-    ->  throw(refused(syntax(0, 'the goal is empty')))
-    ;   Rest == end_of_file
+    (   Rest == end_of_file
     ->  true
     ;   throw(refused(syntax(0, 'more than one goal; join them with a comma')))
     ).
+
+% After a goal with its own full stop and a comment, only the full stop is left that read_goal/3 added.
+read_rest(In, Rest) :-
+    catch(read_term(In, Rest, [module(query), syntax_errors(error)]),
+          error(syntax_error(end_of_clause), _),
+          Rest = end_of_file).
 
 syntax_refusal(What, Where) :-
     (   Where = stream(_, _, _, Character)
@@ -181,7 +189,36 @@ check_relation(allen(Relation, _, _)), nonvar(Relation) =>
     ->  true
     ;   throw(refused(unknown_relation(Relation)))
     ).
+check_relation(format(Sink, Format, _)) =>
+    (   compound(Sink),
+        functor(Sink, Kind, 1),
+        memberchk(Kind, [atom, string, codes, chars]),
+        ( atom(Format) ; string(Format) ),
+        atom_codes(Format, Codes),
+        only_prints(Codes)
+    ->  true
+    ;   throw(refused(not_permitted(format(Sink, Format, _))))
+    ).
 check_relation(_) => true.
+
+%   only_prints(+Codes): no directive of a format calls a goal, as ~@ does, and as ~p may.
+
+only_prints([]).
+only_prints([0'~|Codes]) :-
+    !,
+    directive(Codes, Directive, Rest),
+    \+ memberchk(Directive, [0'@, 0'p]),
+    only_prints(Rest).
+only_prints([_|Codes]) :-
+    only_prints(Codes).
+
+directive([0'`, _, Directive|Rest], Directive, Rest) :- !.
+directive([0'*, Directive|Rest], Directive, Rest) :- !.
+directive([Digit|Codes], Directive, Rest) :-
+    between(0'0, 0'9, Digit),
+    !,
+    directive(Codes, Directive, Rest).
+directive([Directive|Rest], Directive, Rest).
 
 %!  allowed(?Name/Arity) is nondet.
 %
@@ -242,4 +279,4 @@ builtin(PI) :-
              atom_codes/2, atom_chars/2, char_code/2, atom_length/2, atom_concat/3, sub_atom/5,
              atom_number/2, number_codes/2, atom_string/2, atomic_list_concat/2, atomic_list_concat/3,
              upcase_atom/2, downcase_atom/2, string_concat/3, string_length/2, sub_string/5,
-             string_lower/2, string_upper/2, split_string/4 ]).
+             string_lower/2, string_upper/2, split_string/4, format/3 ]).
