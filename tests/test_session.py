@@ -6,12 +6,13 @@ import os
 import signal
 import threading
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from prolepsis.domain import Domain
-from prolepsis.errors import GoalError, GoalLimitError, MissingToolError
+from prolepsis.errors import GoalError, GoalLimitError, InputError, MissingToolError
 from prolepsis.logic.session import Session
 from prolepsis.terms import Term, Variable
 from prolepsis.timeline import Fact, Timeline, make_timeline
@@ -227,3 +228,21 @@ def test_without_swi_prolog_the_message_says_how_to_get_it(monkeypatch: pytest.M
     monkeypatch.setenv("PATH", "/nonexistent")
     with pytest.raises(MissingToolError, match="apt install swi-prolog-nox"):
         Session().ask(timeline(), "true")
+
+
+@pytest.mark.parametrize(
+    ("rule", "message"),
+    [
+        (None, "chronicles, .*rules.pl: existence_error"),
+        ("chronicle(shaking(X), T) :- holds(X, T.", "chronicles, .*rules.pl: syntax_error"),
+        ("chronicle(shaking(X), T) :- hols(X, T).", "a chronicle fails: existence_error.*hols"),
+    ],
+)
+def test_a_file_of_chronicles_that_is_wrong_is_refused(tmp_path: Path, rule: str | None, message: str) -> None:
+    file = tmp_path / "rules.pl"
+    if rule is not None:
+        file.write_text(rule)
+    session = Session(chronicles=(file,))
+    with pytest.raises(InputError, match=message):
+        session.ask(timeline(), "true")
+    session.close()

@@ -18,9 +18,9 @@ import time
 from pathlib import Path
 from typing import Any, cast
 
-from swiplserver import PrologMQI, PrologThread
+from swiplserver import PrologError, PrologMQI, PrologThread
 
-from prolepsis.errors import MissingToolError
+from prolepsis.errors import InputError, MissingToolError
 
 PROLOG_FILES = Path(__file__).parent / "prolog"
 STACK_LIMIT = 256
@@ -98,6 +98,7 @@ class PrologProcess:
 
         Raises:
             ProcessLost: If the process died, or did not answer in ``seconds``.
+            InputError: If the goal raised an error.
         """
         try:
             connection = self._idle.pop()
@@ -108,6 +109,9 @@ class PrologProcess:
             result = cast(Any, connection.query(goal))
         except (OSError, json.JSONDecodeError) as error:
             raise ProcessLost("gone") from error
+        except PrologError as error:
+            self._idle.append(connection)
+            raise InputError(str(error)) from error
         self._idle.append(connection)
         return result[0]["Reply"]
 

@@ -85,6 +85,9 @@ class Session:
                 except ProcessLost:
                     self._lose(process)
                     raise
+                except InputError as error:
+                    self._lose(process)
+                    raise InputError(f"the facts cannot be loaded, or a chronicle fails: {error}") from None
                 file.unlink()
                 self._loaded.add(name)
                 weakref.finalize(timeline, self._forget, key, name)
@@ -136,8 +139,15 @@ class Session:
                 self._loaded.clear()
                 self._process = PrologProcess()
                 for file in self._chronicles:
-                    self._process.call(f"load_files(chronicles:{format_atom(str(file))}, []), Reply = ok", LOAD_LIMIT)
+                    self._load_chronicles(self._process, file)
             return self._process
+
+    def _load_chronicles(self, process: PrologProcess, file: Path) -> None:
+        try:
+            process.call(f"chronicles:load_chronicles({format_atom(str(file))}), Reply = ok", LOAD_LIMIT)
+        except InputError as error:
+            self._lose(process)
+            raise InputError(f"chronicles, {file}: {error}") from None
 
     def _lose(self, process: PrologProcess) -> None:
         with self._lock:

@@ -6,7 +6,8 @@
 
 :- module(chronicles,
           [ chronicle/2,                % ?Event, -Interval
-            chronicle_name/2            % -Name, -Arity
+            chronicle_name/2,           % -Name, -Arity
+            load_chronicles/1           % +File
           ]).
 :- use_module(library(lists)).
 :- use_module(timeline).
@@ -24,6 +25,21 @@ chronicle_name(Name, Arity) :-
     findall(N/A, ( clause(chronicle(Event, _), _), functor(Event, N, A) ), All),
     list_to_set(All, Names),
     member(Name/Arity, Names).
+
+%!  load_chronicles(+File) is det.
+%
+%   Add the chronicles in File.
+%
+%   @error syntax_error(_): loading alone would print it, and leave the rule out
+
+load_chronicles(File) :-
+    setup_call_cleanup(open(File, read, In, [encoding(utf8)]),
+                       ( repeat,
+                         read_term(In, Term, [module(chronicles), syntax_errors(error)]),
+                         Term == end_of_file,
+                         ! ),
+                       close(In)),
+    load_files(chronicles:File, []).
 
 %!  slack(-Seconds) is det.
 %
