@@ -184,6 +184,6 @@ def _scenario(row: dict[str, Any], path: Path) -> Scenario:
         robot=row["robot"],
         duration=row["duration"],
         seed=row["seed"],
-        draw=row["draw"],
-        monitors={name: tuple(chosen) for name, chosen in row["monitors"].items()},
+        draw=row.get("draw", False),
+        monitors={name: tuple(chosen) for name, chosen in row.get("monitors", {}).items()},
     )

@@ -112,7 +112,10 @@ def read_range(graph: Graph, node: Node, entry: Property) -> DataRange:
 
 def _scalar(node: Node, entry: Property) -> Scalar:
     if entry.kind == "quantity":
-        return to_si(float(str(node)), entry.unit)
+        try:
+            return to_si(float(str(node)), entry.unit)
+        except ValueError:
+            raise KnowledgeError(f"a restriction on {entry.name} must name a number, not {str(node)!r}") from None
     return str(node).lower() if entry.kind == "truth" else str(node)
 
 
@@ -172,7 +175,11 @@ def read_cells(documents: tuple[Document, ...], vocabulary: Vocabulary) -> Mappi
             if entry is None or entry.kind == "relation":
                 continue
             for filler in range_nodes(graph, node):
-                points.setdefault(entry.name, set()).update(read_range(graph, filler, entry).points())
+                try:
+                    found = read_range(graph, filler, entry).points()
+                except KnowledgeError as error:
+                    raise KnowledgeError(f"{document.path}: {error}") from None
+                points.setdefault(entry.name, set()).update(found)
     return {
         name: _cells(vocabulary.properties[name], iri, points.get(name, set())) for name, iri in sorted(iris.items())
     }

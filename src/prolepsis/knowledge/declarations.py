@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
@@ -62,7 +63,11 @@ def _text(document: Document, subject: Node, predicate: URIRef) -> str:
 
 def _number(document: Document, subject: Node, predicate: URIRef) -> float | None:
     node = _one(document, subject, predicate)
-    return None if node is None else float(str(node))
+    try:
+        return None if node is None else float(str(node))
+    except ValueError:
+        where = document.where(subject) if isinstance(subject, URIRef) else str(document.path)
+        raise KnowledgeError(f"{where}: {local_name(predicate)} must be a number, not {str(node)!r}") from None
 
 
 def _property(document: Document, iri: URIRef) -> Property:
@@ -166,10 +171,22 @@ def _defaults(document: Document, iri: URIRef, properties: Mapping[str, Property
         yield Default(
             property=name,
             value=read_value(entry, value, where=where),
-            deviation=0.0 if deviation is None else float(str(deviation)) * unit_of(entry.unit).factor,
+            deviation=0.0 if deviation is None else _deviation(entry, deviation, where),
             source=source,
             certainty=certainty,
         )
+
+
+def _deviation(entry: Property, node: Node, where: str) -> float:
+    try:
+        number = float(str(node))
+    except ValueError:
+        number = math.nan
+    if entry.kind != "quantity" or not (math.isfinite(number) and number >= 0.0):
+        raise KnowledgeError(
+            f"{where}: the deviation must be a finite number of at least 0, in the property's unit, not {str(node)!r}"
+        )
+    return number * unit_of(entry.unit).factor
 
 
 def _parts(document: Document, iri: URIRef) -> Iterator[DefaultPart]:

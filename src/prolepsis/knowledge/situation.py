@@ -67,6 +67,8 @@ def read_situation(documents: tuple[Document, ...], vocabulary: Vocabulary) -> S
     places: dict[str, str] = {}
     iris: dict[str, URIRef] = {}
     for document in documents:
+        if not document.built_in:
+            _refuse_misplaced(document, vocabulary)
         for iri in _individuals(document, vocabulary):
             name = local_name(iri)
             if iris.setdefault(name, iri) != iri:
@@ -82,6 +84,8 @@ def read_situation(documents: tuple[Document, ...], vocabulary: Vocabulary) -> S
                 classes[name] = tuple(sorted({*classes.get(name, ()), *told}))
                 places.setdefault(name, document.where(iri))
     for name, told in sorted(classes.items()):
+        for unknown in sorted({*told} - {*vocabulary.classes}):
+            raise UnknownNameError.of("class", unknown, vocabulary.classes, where=places[name])
         if not told:
             known = [n for n, t in classes.items() if t]
             raise UnknownNameError.of("individual", name, known, where=f"{places[name]}: it has no class")
@@ -97,6 +101,22 @@ def read_situation(documents: tuple[Document, ...], vocabulary: Vocabulary) -> S
     situation = _with_default_parts(situation, vocabulary)
     _refuse_loose_parts(situation, vocabulary)
     return situation
+
+
+def _refuse_misplaced(document: Document, vocabulary: Vocabulary) -> None:
+    """Refuse what would otherwise have no effect: nameless individuals, values of classes, and equal names."""
+    known = {entry.iri for entry in vocabulary.classes.values()}
+    for subject, predicate, node in sorted(document.graph, key=str):
+        name = local_name(URIRef(str(predicate)))
+        if isinstance(subject, BNode) and predicate == RDF.type and str(node) in known:
+            raise KnowledgeError(f"{document.path}: a nameless {local_name(URIRef(str(node)))}: give it a name")
+        if isinstance(subject, URIRef) and str(subject) in known and name in vocabulary.properties:
+            where = document.where(subject)
+            raise KnowledgeError(
+                f"{where}: {local_name(subject)} is a class: write [ :of :{name} ; ... ] as a :default of it"
+            )
+        if isinstance(subject, URIRef) and predicate == OWL.sameAs:
+            raise KnowledgeError(f"{document.where(subject)}: owl:sameAs is not supported: two names are two things")
 
 
 def _individuals(document: Document, vocabulary: Vocabulary) -> list[URIRef]:
