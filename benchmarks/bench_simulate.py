@@ -7,15 +7,15 @@ import pstats
 import time
 from typing import Any
 
-import mujoco
+from tests.scenes import EGG_IN_HAND, scene
 
+from prolepsis.engine import mujoco
 from prolepsis.phenomena.breaking import Breaking
 from prolepsis.programs import read_program
 from prolepsis.scene import compile_world
 from prolepsis.simulation import simulate
 from prolepsis.state import State
 from prolepsis.terms import parse_term
-from tests.scenes import EGG_IN_HAND, scene
 
 PLANS = {force: f"sequence([close(hand1, {force}), hold(hand1, 2.0)])" for force in (5.0, 15.0)}
 REPEATS = 3

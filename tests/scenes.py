@@ -31,7 +31,9 @@ def scene(turtle: str, values: Mapping[str, float | str] | None = None) -> Scene
     return compose(knowledge.with_values(values) if values else knowledge)
 
 
-def run(turtle: str, plan: str = "wait(0.001)", *, values: Mapping[str, float | str] | None = None, **options: Any) -> Log:
+def run(
+    turtle: str, plan: str = "wait(0.001)", *, values: Mapping[str, float | str] | None = None, **options: Any
+) -> Log:
     """Return the log of a plan in a situation; ``options`` are those of ``simulate``."""
     composed = scene(turtle, values)
     return simulate(compile_world(composed), read_program(parse_term(plan), composed), **options)

@@ -8,10 +8,10 @@ import subprocess
 import sys
 from pathlib import Path
 
-import mujoco as _mujoco  # pyright: ignore[reportMissingTypeStubs]
 import pytest
 
 import prolepsis
+from prolepsis.engine import mujoco
 from prolepsis.errors import InputError, LogError, UnknownNameError
 from prolepsis.log_files import read_log, write_log
 from prolepsis.projection import Projection, project
@@ -70,8 +70,8 @@ def test_settings_reach_plan_and_knowledge(made: Projection) -> None:
 
 
 def test_the_world_file_opens_in_plain_mujoco(made: Projection, place: Path) -> None:
-    model = _mujoco.MjModel.from_xml_path(str(place / "run" / "world.xml"))  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType, reportAttributeAccessIssue]
-    assert model.body("egg1").id > 0  # pyright: ignore[reportUnknownMemberType]
+    model = mujoco.MjModel.from_xml_path(str(place / "run" / "world.xml"))  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType, reportAttributeAccessIssue]
+    assert model.body("egg1").id > 0
 
 
 def test_three_processes_with_different_hash_seeds_give_the_same_bytes(place: Path, made: Projection) -> None:

@@ -56,7 +56,9 @@ def main() -> None:
         known = KnowledgeBase.load(file).value("eggshell1", "breakingForce")
     assert isinstance(known.value, float) and known.deviation is not None
     forces = [known.value + k * known.deviation for k in DEVIATIONS]
-    print("| posture | " + " | ".join(f"{force:g} N" for force in forces) + " | at substeps of 0.25, 0.125, 0.0625 ms |")
+    print(
+        "| posture | " + " | ".join(f"{force:g} N" for force in forces) + " | at substeps of 0.25, 0.125, 0.0625 ms |"
+    )
     print("|---|" + "---|" * (len(forces) + 1))
     for posture in HALF:
         heights = [f"{1000 * breaking_height(posture, force):.1f} mm" for force in forces]

@@ -112,7 +112,7 @@ class Log:
     """Broken joints of breakable things."""
     channels: Mapping[str, FloatArray] = field(default_factory=dict[str, FloatArray])
     """Further monitored series, each of shape (T,), named ``thing.quantity``: ``hand1.opening`` [m],
-    ``hand1.gripper`` (1 opening, -1 closing, 0 idle), ``hand1.pad_force`` [N], ``egg1.load`` (greatest bond load / strength)."""
+    ``hand1.gripper`` (1 opening, -1 closing, 0 idle), ``hand1.pad_force`` [N], ``egg1.load`` [1] ..."""
     actions: tuple[Action, ...] = ()
     """What the control program did."""
     gravity: Triple = (0.0, 0.0, -9.81)

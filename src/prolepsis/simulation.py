@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-import mujoco
 import numpy as np
 
+from prolepsis.engine import mujoco
 from prolepsis.errors import InvalidSimulationError
 from prolepsis.log import Action, Detachments, Log
 from prolepsis.monitors.channels import Channels, Watched, chosen_monitors
@@ -121,8 +121,7 @@ def simulate(
             # Phenomena, in their one order.
             for phenomenon in phenomena:
                 version = state.version
-                for detached in phenomenon.act(state):
-                    detachments.append((tick, detached))
+                detachments += [(tick, detached) for detached in phenomenon.act(state)]
                 if state.version != version:
                     state.model.opt.timestep = TICK / count
                     recorder.note_version(state)
@@ -143,7 +142,7 @@ def simulate(
     return Log(
         dt=TICK,
         things=things,
-        time=np.arange(tick) * TICK,
+        time=np.arange(tick, dtype=np.float64) * TICK,
         poses=poses,
         carrier=carriers,
         contacts=recorder.contact_columns(TICK),

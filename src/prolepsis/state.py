@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-import mujoco
 import numpy as np
 
+from prolepsis.engine import mujoco
 from prolepsis.scene.world import World, add_geom
 from prolepsis.things import FloatArray, IntArray, Triple
 
@@ -58,7 +58,7 @@ class State:
         spec = world.spec.copy()
         model = spec.compile()
         carrier = np.full(len(things), -1)
-        for i, thing in enumerate(things):
+        for i in range(len(things)):
             carrier[i] = _carrier(world, index, i)
         state = cls(
             world=world,
@@ -71,7 +71,7 @@ class State:
         state.refresh()
         for i, thing in enumerate(things):
             if carrier[i] >= 0 and carrier[i] != i:
-                holder = things[carrier[i]]
+                holder = things[int(carrier[i])]
                 state.offsets[i] = relative_pose(
                     np.array([*holder.position, *holder.orientation]), np.array([*thing.position, *thing.orientation])
                 )

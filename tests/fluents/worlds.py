@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-import mujoco as _mujoco  # pyright: ignore[reportMissingTypeStubs]
 import numpy as np
 
+from prolepsis.engine import mujoco
 from prolepsis.fluents import recognize
 from prolepsis.log import Log
 from prolepsis.things import FloatArray, Thing
 from prolepsis.timeline import Timeline
-
-mujoco: Any = _mujoco  # without type stubs
 
 Control = Callable[[Any, Any], None]
 STEP = 0.002

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-import mujoco as _mujoco  # pyright: ignore[reportMissingTypeStubs]
 import numpy as np
 import pytest
 from tests.fluents.worlds import FLOOR, HAND, HAND_DRIVES, STEP, ball, box, roll, world
 
+from prolepsis.engine import mujoco
 from prolepsis.errors import InputError, InvalidSimulationError, UnknownNameError
 from prolepsis.log import Log
 from prolepsis.things import FloatArray, Thing
-
-mujoco: Any = _mujoco  # without type stubs
 
 
 @pytest.mark.parametrize("cone", ["elliptic", "pyramidal"])

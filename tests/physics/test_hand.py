@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 import pytest
-
 from tests.scenes import run
 
 BLOCK_IN_HAND = (

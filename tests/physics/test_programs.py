@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from tests.scenes import EGG_IN_HAND, scene
 
 from prolepsis.errors import InputError, PlanError, UnknownNameError
 from prolepsis.programs import ACTIONS, read_program
@@ -10,7 +11,6 @@ from prolepsis.programs.commands import BaseTarget, Begin, CloseGripper, Command
 from prolepsis.scene import Scene
 from prolepsis.terms import Term, parse_term
 from prolepsis.things import Triple
-from tests.scenes import EGG_IN_HAND, scene
 
 
 @pytest.fixture(scope="module")
@@ -121,7 +121,9 @@ REFUSED = [
 
 
 @pytest.mark.parametrize(("plan", "kind", "message"), REFUSED)
-def test_a_plan_that_cannot_work_is_refused(plan: str, kind: type[InputError], message: str, egg_in_hand: Scene) -> None:
+def test_a_plan_that_cannot_work_is_refused(
+    plan: str, kind: type[InputError], message: str, egg_in_hand: Scene
+) -> None:
     with pytest.raises(kind, match=message):
         read_program(parse_term(plan), egg_in_hand)
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import hashlib
 
-import mujoco
 import numpy as np
 import pytest
+from tests.scenes import EGG_IN_HAND, falling_egg, run, scene
 
+from prolepsis.engine import mujoco
 from prolepsis.errors import InvalidSimulationError, KnowledgeError, ScenarioError, UnknownNameError
 from prolepsis.log import Log
 from prolepsis.monitors.channels import MONITORS
@@ -15,7 +16,6 @@ from prolepsis.programs import read_program
 from prolepsis.scene import compile_world
 from prolepsis.simulation import simulate
 from prolepsis.terms import parse_term
-from tests.scenes import EGG_IN_HAND, falling_egg, run, scene
 
 TWO_BLOCKS = ":floor a :Floor . :block1 a :Block ; :on :floor . :block2 a :Block ; :on :block1 ."
 
@@ -90,7 +90,11 @@ def test_stacked_blocks_rest_and_bear_their_weight() -> None:
 
 
 def test_the_world_file_opens_in_plain_mujoco() -> None:
-    for situation in (EGG_IN_HAND, TWO_BLOCKS, ":floor a :Floor . :bowl1 a :Bowl ; :on :floor . :cup1 a :Cup ; :x 0.3 ; :on :floor ."):
+    for situation in (
+        EGG_IN_HAND,
+        TWO_BLOCKS,
+        ":floor a :Floor . :bowl1 a :Bowl ; :on :floor . :cup1 a :Cup ; :x 0.3 ; :on :floor .",
+    ):
         world = compile_world(scene(situation))
         model = mujoco.MjModel.from_xml_string(world.xml())
         assert model.nbody == world.model.nbody

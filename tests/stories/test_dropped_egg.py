@@ -26,8 +26,9 @@ def test_it_falls_collides_and_breaks_after_it_is_no_longer_supported(drop: Proj
 
 
 def test_the_hand_supports_it_until_it_opens(drop: Projection) -> None:
-    goal = "holds(supports(hand1,egg1), 0.0-_), occurs(openingGripper(hand1), T), holds(supports(hand1,egg1), S), allen(overlaps, S, T)"
-    assert drop.ask(goal)
+    assert drop.ask(
+        "holds(supports(hand1,egg1), S), S = 0.0-_, occurs(openingGripper(hand1), T), allen(overlaps, S, T)"
+    )
 
 
 def test_it_falls_from_where_the_support_is_lost_until_it_hits_the_floor(drop: Projection) -> None:
@@ -37,7 +38,13 @@ def test_it_falls_from_where_the_support_is_lost_until_it_hits_the_floor(drop: P
 
 def test_in_the_end_the_egg_is_broken_and_its_content_spilled_on_the_floor(drop: Projection) -> None:
     end = drop.timeline.duration - 0.001
-    for fluent in ("broken(egg1)", "spilled(yolk1)", "spilled(white1)", "supports(floor,yolk1)", "supports(floor,white1)"):
+    for fluent in (
+        "broken(egg1)",
+        "spilled(yolk1)",
+        "spilled(white1)",
+        "supports(floor,yolk1)",
+        "supports(floor,white1)",
+    ):
         assert drop.ask(f"holds_at({fluent}, {end})"), fluent
     for fluent in ("contains(egg1,yolk1)", "supports(_,egg1)", "attached(_,egg1)"):
         assert not drop.ask(f"holds_at({fluent}, {end})"), fluent

@@ -6,13 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-import mujoco as _mujoco  # pyright: ignore[reportMissingTypeStubs]
 import numpy as np
 
+from prolepsis.engine import mujoco
 from prolepsis.errors import InputError, UnknownNameError
 from prolepsis.things import FloatArray, Geom, IntArray, Quaternion, Shape, Thing, Triple
-
-mujoco: Any = _mujoco  # without type stubs
 
 # Numpy's integers do not equal MuJoCo's enumerators, so plain integers are compared.
 _PLANE = int(mujoco.mjtGeom.mjGEOM_PLANE)

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-import mujoco
 import numpy as np
 
+from prolepsis.engine import mujoco
 from prolepsis.log import Contacts
 from prolepsis.state import State
 from prolepsis.things import FloatArray, IntArray
@@ -117,9 +117,9 @@ class Recorder:
                 peak=np.zeros(0),
             )
         counts = np.array([len(row[4]) for row in self.contacts])
-        tick = np.repeat([row[0] for row in self.contacts], counts)
-        version = np.repeat([row[1] for row in self.contacts], counts)
-        step = np.repeat([row[2] for row in self.contacts], counts)
+        tick = np.repeat(np.array([row[0] for row in self.contacts]), counts)
+        version = np.repeat(np.array([row[1] for row in self.contacts]), counts)
+        step = np.repeat(np.array([row[2] for row in self.contacts]), counts)
         base = np.repeat(np.cumsum([0, *(len(row[7]) for row in self.contacts[:-1])]), counts)
         geoms = np.concatenate([row[3] for row in self.contacts])
         address = np.concatenate([row[4] for row in self.contacts])
@@ -127,9 +127,8 @@ class Recorder:
         point = np.concatenate([row[6] for row in self.contacts])
         efc = np.concatenate([row[7] for row in self.contacts])
         active = address >= 0
-        tick, version, step, geoms, frame, point = (
-            column[active] for column in (tick, version, step, geoms, frame, point)
-        )
+        tick, version, step = tick[active], version[active], step[active]
+        geoms, frame, point = geoms[active], frame[active], point[active]
         local = efc[(base + address)[active][:, None] + np.arange(3)]
         force = np.einsum("cij,ci->cj", frame, local)
         normal_force = local[:, 0]
@@ -153,9 +152,8 @@ class Recorder:
         total = np.bincount(group, weights=weight, minlength=size)
 
         def summed(values: FloatArray, factor: FloatArray) -> FloatArray:
-            return np.stack(
-                [np.bincount(group, weights=values[:, k] * factor, minlength=size) for k in range(3)], axis=1
-            )
+            columns = [np.bincount(group, weights=values[:, k] * factor, minlength=size) for k in range(3)]
+            return np.stack(columns, axis=1).astype(np.float64)
 
         normal = summed((frame[:, 0] * sign[:, None])[keep], weight)
         length = np.linalg.norm(normal, axis=1, keepdims=True)

@@ -5,16 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-import mujoco as _mujoco  # pyright: ignore[reportMissingTypeStubs]
 import numpy as np
 
+from prolepsis.engine import mujoco
 from prolepsis.errors import InputError, InvalidSimulationError
 from prolepsis.log import Bonds, Contacts, Log
 from prolepsis.monitors.model_things import ModelThings, SceneThings, model_things
 from prolepsis.monitors.touching import ContactRows, contact_rows, merge_rows
 from prolepsis.things import BoolArray, FloatArray, IntArray
-
-mujoco: Any = _mujoco  # without type stubs
 
 _LARGEST = 1e10
 """MuJoCo calls a coordinate beyond this unstable (``mjMAXVAL``)."""

@@ -6,13 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import mujoco as _mujoco  # pyright: ignore[reportMissingTypeStubs]
 import numpy as np
 
+from prolepsis.engine import mujoco
 from prolepsis.log import Contacts
 from prolepsis.things import BoolArray, FloatArray, IntArray
-
-mujoco: Any = _mujoco  # without type stubs
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

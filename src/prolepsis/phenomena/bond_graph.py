@@ -171,8 +171,9 @@ def _response(graph: BondGraph) -> FloatArray:
     grounded = stiff + np.trace(stiff) / (6 * n) * (basis @ basis.T)
     # Rotations carry metres less than translations: scale before solving, or the matrix is ill conditioned.
     scale = 1 / np.sqrt(np.diag(grounded))
-    inverse = scale[:, None] * np.linalg.solve(scale[:, None] * grounded * scale[None, :], scale[:, None] * relief)
-    return stiffness[:, None] * (strain @ inverse)
+    balanced = scale[:, None] * grounded * scale[None, :]
+    motion: FloatArray = scale[:, None] * np.linalg.solve(balanced, scale[:, None] * relief)
+    return stiffness[:, None] * (strain @ motion)
 
 
 def _strain(graph: BondGraph) -> tuple[FloatArray, FloatArray]:

@@ -8,7 +8,8 @@ go on as bodies of their own, which may break again.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -36,7 +37,7 @@ PRESSED = 0.1
 LOOK_TICKS = 4
 """Under steady forces the loads are computed anew every so many ticks."""
 SLIDING = 1.3
-"""In that time a contact that slides at 0.3 m/s moves by a sixth of the spread of its force; its loads rise no more [1]."""
+"""In that time a contact that slides at 0.3 m/s moves by a sixth of its spread; loads rise by less than this [1]."""
 STEADY_CHANGE = 0.02
 """Contact forces are steady while they change by less than this part of what the screen allows [1] ..."""
 STEADY_GAP = 0.002
@@ -63,7 +64,7 @@ class Fragment:
     """All contact forces in the scene at the last full check [N], as MuJoCo lists them."""
 
     def is_steady(self, rows: FloatArray) -> bool:
-        """Return whether contact forces differ so little from those last checked that no bond can have come to break."""
+        """Return whether the contact forces are so near those last checked that no bond can have come to break."""
         if self.rows is None or self.rows.shape != rows.shape:
             return False
         return SLIDING * self.load + float(np.abs(rows - self.rows).sum()) / self.calm < 1
@@ -151,7 +152,7 @@ class Breaking:
         return CONTACT_STEP if near else MAX_STEP
 
     def is_steady(self) -> bool:
-        """Return whether no bond can come to break within a tick, so that its substeps need not be looked at one by one.
+        """Return whether no bond can come to break within a tick, so that its substeps need no look one by one.
 
         So it is while no contact is new or about to close and the forces hardly change.
         """
@@ -341,7 +342,7 @@ def _calm(graph: BondGraph) -> float:
     return float(BETWEEN_SAMPLES / (membrane / graph.strengths + bending / graph.bending_strength).max())
 
 
-def strength_of(thing_quantities: dict[str, float], draw: bool, rng: np.random.Generator) -> float:
+def strength_of(thing_quantities: Mapping[str, float], draw: bool, rng: np.random.Generator) -> float:
     """Return the breaking force of one shell [N]: the mean, or a draw from its distribution."""
     mean = thing_quantities["breakingForce"]
     deviation = thing_quantities.get("breakingForceDeviation", 0.0)

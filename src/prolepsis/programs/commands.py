@@ -94,4 +94,4 @@ class Sense:
 
 
 Behaviour = Generator[tuple[Command, ...], Sense, Sense]
-"""A program: at each tick it yields commands and receives what is sensed at the next; it returns what it sensed last."""
+"""A program: at each tick it yields commands and receives what is sensed at the next; it returns its last sense."""

@@ -100,17 +100,18 @@ def _in_sequence(makers: list[Maker]) -> Maker:
 
 def _all_together(makers: list[Maker]) -> Maker:
     def begin(sense: Sense) -> Behaviour:
-        going = [maker(sense) for maker in makers]
-        fresh = set(range(len(going)))
-        while going:
+        fresh = [maker(sense) for maker in makers]
+        going: list[Behaviour] = []
+        while fresh or going:
             commands: list[Command] = []
-            for k, behaviour in list(enumerate(going)):
+            still: list[Behaviour] = []
+            for behaviour in (*going, *fresh):
                 try:
-                    commands += next(behaviour) if k in fresh else behaviour.send(sense)
+                    commands += behaviour.send(sense) if behaviour in going else next(behaviour)
+                    still.append(behaviour)
                 except StopIteration:
-                    going[k] = None  # type: ignore[call-overload]
-            fresh = set()
-            going = [behaviour for behaviour in going if behaviour is not None]
+                    pass
+            going, fresh = still, []
             if going:
                 sense = yield tuple(commands)
         return sense

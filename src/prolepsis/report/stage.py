@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-import mujoco as _mujoco  # pyright: ignore[reportMissingTypeStubs]
 import numpy as np
 
+from prolepsis.engine import mujoco
 from prolepsis.log import Log
 from prolepsis.things import BoolArray, FloatArray, Geom, Thing
-
-mujoco: Any = _mujoco
-"""MuJoCo has no type stubs."""
 
 APPEARING = frozenset({"Piece", "Blob"})
 """Roles of what is seen only once its whole has come apart."""

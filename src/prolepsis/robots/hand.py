@@ -10,9 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-import mujoco
 import numpy as np
 
+from prolepsis.engine import mujoco
 from prolepsis.things import FloatArray, Geom, Quaternion, Shape, Thing, Triple
 
 

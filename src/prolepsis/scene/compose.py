@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import mujoco
 import numpy as np
 
+from prolepsis.engine import mujoco
 from prolepsis.errors import KnowledgeError
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.robots.hand import HAND

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import mujoco
 import numpy as np
 
+from prolepsis.engine import mujoco
 from prolepsis.things import FloatArray, Geom, Quaternion, Thing
 
 

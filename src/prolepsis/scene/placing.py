@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-import mujoco
 import numpy as np
 
+from prolepsis.engine import mujoco
 from prolepsis.errors import KnowledgeError
 from prolepsis.scene.extent import support
 from prolepsis.things import Thing

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import mujoco
 import numpy as np
 
+from prolepsis.engine import mujoco
 from prolepsis.errors import KnowledgeError
 from prolepsis.robots.hand import HAND
 from prolepsis.scene.scene import Scene

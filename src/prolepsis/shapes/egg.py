@@ -127,7 +127,7 @@ def _common_edges(
 
 
 def _outline(points: FloatArray, normals: FloatArray, centre: FloatArray, thickness: float) -> FloatArray:
-    """Return some dozens of vertices of the piece that owns ``points``, outer and inner face, relative to its centre."""
+    """Return some dozens of vertices, outer and inner, of the piece that owns ``points``, relative to its centre."""
     offsets = (points - centre) * SHRINK
     normal = normals.mean(axis=0)
     normal /= np.linalg.norm(normal)
