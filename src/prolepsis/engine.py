@@ -7,3 +7,7 @@ from typing import Any
 import mujoco as _mujoco  # pyright: ignore[reportMissingTypeStubs]
 
 mujoco: Any = _mujoco
+
+# Otherwise MuJoCo writes its warnings to a file in the working folder. They are counted in the data, where the
+# simulation looks after every tick.
+mujoco.set_mju_user_warning(lambda _message: None)

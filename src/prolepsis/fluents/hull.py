@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from itertools import combinations
 from typing import Any
 
 import numpy as np
 
-from prolepsis.things import FloatArray
+from prolepsis.things import FloatArray, IntArray
 
 _FLAT = 1e-7
 """Share of the extent [1] below which a point counts as lying in a plane."""
@@ -35,9 +36,14 @@ def hull_planes(vertices: FloatArray) -> FloatArray:
     return planes[np.sort(chosen)]
 
 
+@lru_cache(maxsize=64)
+def _triples(count: int) -> IntArray:
+    return np.array(list(combinations(range(count), 3))).T
+
+
 def _tried_planes(points: FloatArray, flat: float) -> FloatArray:
     """Return the planes through three points that have all others on one side, shape (F, 4)."""
-    i, j, k = np.array(list(combinations(range(len(points)), 3))).T
+    i, j, k = _triples(len(points))
     normals = np.cross(points[j] - points[i], points[k] - points[i])
     size = np.linalg.norm(normals, axis=1)
     good = size > flat * flat

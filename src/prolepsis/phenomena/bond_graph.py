@@ -172,7 +172,7 @@ def _response(graph: BondGraph) -> FloatArray:
     # Rotations carry metres less than translations: scale before solving, or the matrix is ill conditioned.
     scale = 1 / np.sqrt(np.diag(grounded))
     balanced = scale[:, None] * grounded * scale[None, :]
-    motion: FloatArray = scale[:, None] * np.linalg.solve(balanced, scale[:, None] * relief)
+    motion = scale[:, None] * np.asarray(np.linalg.solve(balanced, scale[:, None] * relief), dtype=np.float64)
     return stiffness[:, None] * (strain @ motion)
 
 

@@ -13,6 +13,10 @@ SAMPLE_COUNT = 12000
 """Points that sample the shell; a piece has some 400 of them, so edge lengths are known to about 3 %."""
 RELAXATIONS = 40
 """Lloyd steps that make the pieces equally large."""
+RIM_COUNT = 12
+"""Vertices along the rim of a piece, on each face: a polygon of five to seven corners keeps them."""
+CROWN_STRIDE = 24
+"""Every so many samples of the middle of a piece is a vertex: some five, which keep it domed."""
 SHRINK = 0.985
 """Pieces are drawn in by 1.5 % of their size, so that neighbours do not push each other when they part."""
 
@@ -136,10 +140,10 @@ def _outline(points: FloatArray, normals: FloatArray, centre: FloatArray, thickn
     u /= np.linalg.norm(u)
     v = np.cross(normal, u)
     angles = np.arctan2(offsets @ v, offsets @ u)
-    sector = np.floor((angles + np.pi) / (2 * np.pi) * 16).astype(int)
+    sector = np.floor((angles + np.pi) / (2 * np.pi) * RIM_COUNT).astype(int)
     radius = np.linalg.norm(offsets, axis=1)
     rim = np.array([np.flatnonzero(sector == k)[radius[sector == k].argmax()] for k in np.unique(sector)])
-    crown = np.flatnonzero(radius < 0.5 * radius.max())[::8]
+    crown = np.flatnonzero(radius < 0.5 * radius.max())[::CROWN_STRIDE]
     chosen = np.concatenate([rim, crown, [radius.argmin()]])
     return np.concatenate([offsets[chosen], offsets[rim] - normals[rim] * thickness])
 
