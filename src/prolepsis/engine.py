@@ -8,6 +8,10 @@ import mujoco as _mujoco  # pyright: ignore[reportMissingTypeStubs]
 
 mujoco: Any = _mujoco
 
-# Otherwise MuJoCo writes its warnings to a file in the working folder. They are counted in the data, where the
-# simulation looks after every tick.
-mujoco.set_mju_user_warning(lambda _message: None)
+
+def _say_nothing(message: str) -> None:
+    """Keep MuJoCo from writing warnings to a file in the working folder; simulations count them and end."""
+    del message
+
+
+mujoco.set_mju_user_warning(_say_nothing)

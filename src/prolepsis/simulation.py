@@ -13,8 +13,8 @@ from prolepsis.errors import InvalidSimulationError
 from prolepsis.log import Action, Detachments, Log
 from prolepsis.monitors.channels import Channels, Watched, chosen_monitors
 from prolepsis.monitors.recorder import Recorder
-from prolepsis.phenomena.breaking import Breaking, Detachment, strength_of
-from prolepsis.phenomena.wetting import Wetting
+from prolepsis.phenomena import PHENOMENA, Attach, Detachment, Draw
+from prolepsis.phenomena.breaking import Breaking
 from prolepsis.programs.commands import Begin, Command, End, Sense
 from prolepsis.programs.program import Program
 from prolepsis.robots.hand import HAND
@@ -41,6 +41,7 @@ def simulate(
     seed: int = 1,
     draw: bool = False,
     max_step: float = MAX_STEP,
+    phenomena: Sequence[Attach] = PHENOMENA,
     monitors: Mapping[str, Sequence[str]] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> Log:
@@ -53,30 +54,25 @@ def simulate(
         seed: Seed of everything that is drawn.
         draw: Draw uncertain strengths from their distributions instead of taking the means.
         max_step: Longest substep [s]; phenomena ask for shorter ones.
+        phenomena: What adds to rigid-body physics, in the order in which it runs.
         monitors: Thing to the names of what is logged of it; the defaults for things that are not named.
         progress: Called now and then with the simulated time [s].
 
     Raises:
         InvalidSimulationError: If the physics diverges; the message says when and where.
     """
-    rng = np.random.default_rng(seed)
     state = State.of(world)
     things = world.scene.things
-    shells = {thing.whole: thing for thing in things if "breakingForce" in thing.quantities}
-    phenomena = [
-        Breaking(state, thing, strength_of(shells[thing.name].quantities, draw=draw, rng=rng))
-        for thing in things
-        if "Breakable" in thing.roles and thing.name in shells
-    ]
+    drawing = Draw(rng=np.random.default_rng(seed), spread=draw)
+    going = [controller for attach in phenomena for controller in attach(state, drawing)]
     hands = {
         thing.name: HandControl(state, thing.name, HAND, thing.quantities["opening"])
         for thing in things
         if "Gripper" in thing.roles
     }
     recorder = Recorder()
-    wetting = Wetting(state)
     channels = Channels(chosen_monitors(things, monitors))
-    watched = Watched(state=state, hands=hands, breaking={each.thing.name: each for each in phenomena})
+    watched = Watched(state=state, hands=hands, breaking={c.thing.name: c for c in going if isinstance(c, Breaking)})
     detachments: list[tuple[int, Detachment]] = []
     running: dict[Term, int] = {}
     actions: list[Action] = []
@@ -107,11 +103,11 @@ def simulate(
         recorder.tick(state)
         channels.tick(watched)
 
-        step = min((phenomenon.substep(state) for phenomenon in phenomena), default=MAX_STEP)
+        step = min((phenomenon.substep(state) for phenomenon in going), default=MAX_STEP)
         step = min(step, max_step)
         count = math.ceil(TICK / step - 1e-9)
         state.model.opt.timestep = TICK / count
-        together = count if all(phenomenon.is_steady() for phenomenon in phenomena) else 1
+        together = count if all(phenomenon.is_steady() for phenomenon in going) else 1
         for _ in range(count // together):
             # Physics step.
             mujoco.mj_step(state.model, state.data, together)
@@ -119,7 +115,7 @@ def simulate(
                 _refuse(state, tick)
             recorder.substep(state, tick, TICK * together / count)
             # Phenomena, in their one order.
-            for phenomenon in phenomena:
+            for phenomenon in going:
                 version = state.version
                 detachments += [(tick, detached) for detached in phenomenon.act(state)]
                 if state.version != version:
@@ -127,9 +123,10 @@ def simulate(
                     recorder.note_version(state)
                     for hand in hands.values():
                         hand.bind(state)
-        if int(state.data.warning.number.sum()):
+        if state.warnings or int(state.data.warning.number.sum()):
             _refuse(state, tick)
-        wetting.tick(state)
+        for phenomenon in going:
+            phenomenon.tick(state)
         if hands:
             forces = state.normal_forces()
             for hand in hands.values():

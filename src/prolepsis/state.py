@@ -45,6 +45,8 @@ class State:
     """Index of the thing that each MuJoCo body is, -1 for none, shape (nbody,)."""
     version: int = 0
     """Counts the rebuilt models."""
+    warnings: int = 0
+    """MuJoCo's warnings before the model was last rebuilt."""
     attributes: dict[tuple[str, str], float] = field(default_factory=dict[tuple[str, str], float])
     """What controllers have changed: (thing, attribute) to its value."""
     _body_of_geom: list[int] = field(default_factory=list[int])
@@ -207,6 +209,8 @@ class State:
         if old_thing not in {i for group in groups for i in group}:
             whole = np.flatnonzero(self.carrier == old_thing)
             self.carrier[whole] = -1
+        # Rebuilding starts the count of warnings again.
+        self.warnings += int(self.data.warning.number.sum())
         self.model, self.data = self.spec.recompile(self.model, self.data)
         self.version += 1
         self.refresh()

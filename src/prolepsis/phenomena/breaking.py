@@ -8,12 +8,12 @@ go on as bodies of their own, which may break again.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from prolepsis.phenomena.bond_graph import BondGraph
+from prolepsis.phenomena.phenomenon import Detachment, Draw, Phenomenon
 from prolepsis.phenomena.shell_calibration import calibrated_graph
 from prolepsis.scene.egg_things import PIECE_COUNT
 from prolepsis.scene.world import MAX_STEP
@@ -70,34 +70,20 @@ class Fragment:
         return SLIDING * self.load + float(np.abs(rows - self.rows).sum()) / self.calm < 1
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Detachment:
-    """One bond that gave way."""
-
-    thing: int
-    """Index of the whole."""
-    a: int
-    """Index of the first piece."""
-    b: int
-    """Index of the second piece."""
-    force: float
-    """Greatest contact force on the body [N]."""
-
-
-class Breaking:
+class Breaking(Phenomenon):
     """The controller of one fragile thing."""
 
-    def __init__(self, state: State, thing: Thing, breaking_force: float) -> None:
+    def __init__(self, state: State, thing: Thing, shell: Thing, breaking_force: float) -> None:
         """Attach to ``thing``.
 
         Args:
             state: The simulation.
             thing: An intact thing with an ellipsoidal shell.
+            shell: The shell, a part of it.
             breaking_force: Force between plates at which this very shell breaks [N].
         """
         things = state.world.scene.things
         names = {t.name: i for i, t in enumerate(things)}
-        shell = next(t for t in things if t.whole == thing.name and "shellThickness" in t.quantities)
         self.thing = thing
         self.shell_name = shell.name
         self.index = names[thing.name]
@@ -342,8 +328,15 @@ def _calm(graph: BondGraph) -> float:
     return float(BETWEEN_SAMPLES / (membrane / graph.strengths + bending / graph.bending_strength).max())
 
 
-def strength_of(thing_quantities: Mapping[str, float], draw: bool, rng: np.random.Generator) -> float:
-    """Return the breaking force of one shell [N]: the mean, or a draw from its distribution."""
-    mean = thing_quantities["breakingForce"]
-    deviation = thing_quantities.get("breakingForceDeviation", 0.0)
-    return mean if not draw else float(max(rng.normal(mean, deviation), 0.2 * mean))
+def attach(state: State, draw: Draw) -> list[Breaking]:
+    """Return a controller for each breakable thing whose shell is known."""
+    made: list[Breaking] = []
+    for thing in state.world.scene.things:
+        if "Breakable" not in thing.roles or thing.whole is not None:
+            continue
+        for part in state.world.scene.parts(thing.name):
+            known = part.quantities
+            if "breakingForce" in known and "shellThickness" in known:
+                force = draw.value(known["breakingForce"], known.get("breakingForceDeviation", 0.0))
+                made.append(Breaking(state, thing, part, force))
+    return made

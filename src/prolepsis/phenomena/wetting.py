@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from prolepsis.phenomena.phenomenon import Draw, Phenomenon
 from prolepsis.scene.world import friction_of
 from prolepsis.state import State
 
 
-class Wetting:
+class Wetting(Phenomenon):
     """The controller of all surfaces in a scene."""
 
     def __init__(self, state: State) -> None:
@@ -44,3 +45,9 @@ class Wetting:
         slippery = surface.quantities.get("frictionWhenWet", friction_of(surface))
         if slippery < friction_of(surface):
             state.set_friction(index, slippery)
+
+
+def attach(state: State, draw: Draw) -> list[Wetting]:
+    """Return the one controller of a scene in which there is a liquid."""
+    del draw
+    return [Wetting(state)] if any("Liquid" in thing.roles for thing in state.world.scene.things) else []
