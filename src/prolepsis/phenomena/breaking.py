@@ -22,8 +22,6 @@ from prolepsis.things import FloatArray, Thing
 
 CONTACT_STEP = 2.5e-4
 """Substep [s] while something is near an intact shell: an impact lasts some 1.5 ms, so six substeps."""
-FRAGMENT_STEP = 5.0e-4
-"""Substep [s] while fragments that may still break are pushed about."""
 DAMPING_RATIO = 0.05
 """Damping of shell contact [1]: a rigid but brittle shell rebounds well."""
 IMPEDANCE = 0.1
@@ -32,16 +30,16 @@ BETWEEN_SAMPLES = 0.9
 """Margin of the screen for contacts between its sampled points [1]."""
 LIGHT = 0.2
 """A fragment that is pressed less than this [N] is not computed: shards break at some newtons."""
-PRESSED = 0.1
-"""Fragments pressed with less than this part of what the screen allows do not need short substeps [1]."""
 LOOK_TICKS = 4
 """Under steady forces the loads are computed anew every so many ticks."""
+GROWN = 1.2
+"""So are those of a fragment, whose contacts are never steady, unless its forces have grown by this factor [1]."""
 SLIDING = 1.3
 """In that time a contact that slides at 0.3 m/s moves by a sixth of its spread; loads rise by less than this [1]."""
 STEADY_CHANGE = 0.02
 """Contact forces are steady while they change by less than this part of what the screen allows [1] ..."""
-STEADY_GAP = 0.002
-"""... nothing is about to touch: what approaches at 2 m/s needs a tick for this way [m] ..."""
+STEADY_WAY = 3.0e-3
+"""... nothing is about to touch: it is farther away than the fastest motion goes in this time, three ticks [s] ..."""
 STEADY_LOAD = 0.8
 """... and no bond bears more than this part of its strength [1]."""
 TOGETHER = 0.9
@@ -60,6 +58,8 @@ class Fragment:
     """Contact forces may add up to this before a bond can break [N]."""
     load: float = 0.0
     """Greatest bond load over strength at the last full check [1]."""
+    total: float = 0.0
+    """Sum of the normal forces when it was last looked at [N]."""
     rows: FloatArray | None = None
     """All contact forces in the scene at the last full check [N], as MuJoCo lists them."""
 
@@ -113,7 +113,6 @@ class Breaking(Phenomenon):
         """Greatest bond load over strength in the tick [1]; 0 while the screen shows that none can break."""
         self.force = 0.0
         """Greatest sum of normal forces on one body in the tick [N]."""
-        self._pressed = False
         self._pressed_most = -1
         self._fresh = True
         self._ticks = 0
@@ -131,7 +130,7 @@ class Breaking(Phenomenon):
         self._ticks += 1
         self._fresh = self._ticks % LOOK_TICKS == 0
         if not self.intact:
-            return FRAGMENT_STEP if self._pressed else MAX_STEP
+            return MAX_STEP
         near = self._near(state)
         pressed = near and 0 <= self._pressed_most < state.data.ncon
         self._set_stiffness(state, state.data.contact.pos[self._pressed_most] if pressed else None)
@@ -156,11 +155,11 @@ class Breaking(Phenomenon):
         totals = self._contact_totals(state)
         self._compare(state, totals)
         self.force = max(self.force, *totals.values(), 0.0)
-        self._pressed = any(total > max(LIGHT, PRESSED * self._watched[body].calm) for body, total in totals.items())
         detached: list[Detachment] = []
         for body, total in totals.items():
             fragment = self._watched[body]
-            if total >= fragment.calm:
+            if total >= fragment.calm and (self.intact or self._fresh or total > GROWN * fragment.total):
+                fragment.total = total
                 detached += self._check(state, body, fragment)
         self._fresh = False
         if detached:
@@ -178,7 +177,8 @@ class Breaking(Phenomenon):
             self._steady = all(abs(totals[b] - before[b]) < STEADY_CHANGE * self._watched[b].calm for b in totals)
         if self._steady and self._active < state.data.ncon:
             contact = state.data.contact
-            self._steady = bool((contact.dist[contact.efc_address < 0] > STEADY_GAP).all())
+            way = STEADY_WAY * float(np.abs(state.data.qvel).max())
+            self._steady = bool((contact.dist[contact.efc_address < 0] > way).all())
 
     def _contact_totals(self, state: State) -> dict[int, float]:
         """Return the sum of the normal forces on each body that may break [N], by body."""
