@@ -55,7 +55,8 @@ class ActionSpec:
         shown: list[str] = []
         for parameter in self.parameters:
             name = parameter.name[0].upper() + parameter.name[1:]
-            shown.append(name if parameter.default is None else f"{name} = {parameter.default:g}")
+            unit = KINDS[parameter.kind].strip("[]")
+            shown.append(name if parameter.default is None else f"{name} = {parameter.default:g} {unit}")
         return f"{self.name}({', '.join(shown)})"
 
 

@@ -117,6 +117,7 @@ class Stage:
     def _bounds(self, ticks: list[int]) -> tuple[FloatArray, FloatArray]:
         """Return the lower and upper corner of what moves [m]; a few far splinters are left out."""
         places: list[FloatArray] = []
+        bits: list[FloatArray] = []
         for i, thing in enumerate(self.log.things):
             seen = [tick for tick in ticks if self.visible(tick)[i]]
             if thing.fixed or not thing.shape.geoms or not seen:
@@ -124,13 +125,17 @@ class Stage:
             path = self.log.poses[seen, i, :3]
             if float(np.ptp(path, axis=0).max()) > MOVED or self._appears[i]:
                 size = min(_radius(thing), 0.15)
-                places += [path - size, path + size]
-        if not places:
+                (bits if self._appears[i] else places).extend([path - size, path + size])
+        if not places and not bits:
             shown = [i for i, thing in enumerate(self.log.things) if thing.shape.geoms and not thing.fixed]
             path = self.log.poses[0, shown or [0], :3]
             places = [path - 0.1, path + 0.1]
-        points = np.concatenate(places)
-        return np.percentile(points, 1.0, axis=0), np.percentile(points, 99.0, axis=0)
+        corners = [
+            np.percentile(np.concatenate(group), (cut, 100.0 - cut), axis=0)
+            for group, cut in ((places, 1.0), (bits, 15.0))
+            if group
+        ]
+        return np.min(corners, axis=(0, 1)), np.max(corners, axis=(0, 1))
 
     def _chain(self, thing: Thing) -> frozenset[int]:
         chain: set[int] = set()
