@@ -10,7 +10,7 @@ from tests.scenes import EGG_IN_HAND, falling_egg, run, scene
 
 from prolepsis.engine import mujoco
 from prolepsis.log import Log
-from prolepsis.phenomena.breaking import local_stiffness
+from prolepsis.phenomena.shell_contact import local_stiffness
 from prolepsis.scene import compile_world
 from prolepsis.state import State
 from prolepsis.things import FloatArray
@@ -79,7 +79,7 @@ def test_a_standing_egg_breaks_from_less_height_than_a_lying_one() -> None:
     def breaks(height: float, *, standing: bool) -> bool:
         return bonds_broken(drop(height, standing=standing)) > 0
 
-    between = 0.0042  # the drop table of docs/egg.md: standing 3.6 mm, lying 4.8 mm
+    between = 0.004  # the drop table of docs/egg.md: standing 3.5 mm, lying 4.4 mm
     assert breaks(between, standing=True)
     assert not breaks(between, standing=False)
 

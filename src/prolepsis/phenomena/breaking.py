@@ -15,6 +15,7 @@ import numpy as np
 from prolepsis.phenomena.bond_graph import BondGraph
 from prolepsis.phenomena.phenomenon import Detachment, Draw, Phenomenon
 from prolepsis.phenomena.shell_calibration import calibrated_graph
+from prolepsis.phenomena.shell_contact import ShellContact
 from prolepsis.scene.egg_things import PIECE_COUNT
 from prolepsis.scene.world import MAX_STEP
 from prolepsis.state import State
@@ -22,10 +23,6 @@ from prolepsis.things import FloatArray, Thing
 
 CONTACT_STEP = 2.5e-4
 """Substep [s] while something is near an intact shell: an impact lasts some 1.5 ms, so six substeps."""
-DAMPING_RATIO = 0.05
-"""Damping of shell contact [1]: a rigid but brittle shell rebounds well."""
-IMPEDANCE = 0.1
-"""Constant impedance: static and dynamic stiffness then differ by a factor 1 / (1 - 0.1) only."""
 BETWEEN_SAMPLES = 0.9
 """Margin of the screen for contacts between its sampled points [1]."""
 LIGHT = 0.2
@@ -51,7 +48,9 @@ class Fragment:
     """A rigid part of a broken or intact shell."""
 
     body: str
+    """Name of the rigid body."""
     graph: BondGraph
+    """Its pieces and bonds."""
     origin: FloatArray
     """Place of the body's frame in the shell's frame [m], shape (3,)."""
     calm: float
@@ -92,11 +91,8 @@ class Breaking(Phenomenon):
             i for i, t in enumerate(things) if "Blob" in t.roles and things[names[str(t.whole)]].whole == thing.name
         ]
         a, b, c = thing.shape.geoms[0].size
-        self.semi_axes = np.array([a, b, c])
         quantities = shell.quantities
         self.weakening = quantities["crackTipWeakening"]
-        self.plate_stiffness = quantities["plateStiffness"]
-        self.pole_ratio = quantities["poleStiffnessRatio"]
         graph = calibrated_graph(
             (a, b, c),
             PIECE_COUNT,
@@ -119,10 +115,10 @@ class Breaking(Phenomenon):
         self._steady = False
         self._active = -1
         self._last: tuple[int, dict[int, float]] = (-1, {})
-        self._stiffness = 0.0
         self._version = -1
         self._watched: dict[int, Fragment] = {}
-        self._set_stiffness(state, None)
+        self._contact = ShellContact(thing, quantities["plateStiffness"], quantities["poleStiffnessRatio"])
+        self._contact.update(state, None)
 
     def substep(self, state: State) -> float:
         """Return the substep that breaking needs now [s], and bring the contact's stiffness up to date."""
@@ -133,7 +129,7 @@ class Breaking(Phenomenon):
             return MAX_STEP
         near = self._near(state)
         pressed = near and 0 <= self._pressed_most < state.data.ncon
-        self._set_stiffness(state, state.data.contact.pos[self._pressed_most] if pressed else None)
+        self._contact.update(state, state.data.contact.pos[self._pressed_most] if pressed else None)
         return CONTACT_STEP if near else MAX_STEP
 
     def is_steady(self) -> bool:
@@ -266,51 +262,6 @@ class Breaking(Phenomenon):
         """Return whether anything is near the intact thing."""
         geom = state.model.geom(f"{self.thing.name}/0").id
         return state.data.ncon > 0 and any(geom in pair for pair in state.data.contact.geom.tolist())
-
-    def _set_stiffness(self, state: State, point: FloatArray | None) -> None:
-        """Give the contacts of the intact thing the stiffness of its shell where it touches (or will touch, below)."""
-        body = state.data.body(self.thing.name)
-        turn = body.xmat.reshape(3, 3)
-        place = -turn[2] * self.semi_axes if point is None else (point - body.xpos) @ turn
-        unit = place / self.semi_axes
-        along = abs(unit[0]) / math.sqrt(float(unit @ unit))
-        stiffness = local_stiffness(self.semi_axes, along, self.plate_stiffness, self.pole_ratio)
-        if abs(stiffness - self._stiffness) < 0.01 * stiffness:
-            return
-        self._stiffness = stiffness
-        model = state.model
-        geom = model.geom(f"{self.thing.name}/0").id
-        for p in range(model.npair):
-            if geom in (model.pair_geom1[p], model.pair_geom2[p]):
-                bodies = (model.geom_bodyid[model.pair_geom1[p]], model.geom_bodyid[model.pair_geom2[p]])
-                weight = model.body_invweight0[bodies[0], 0] + model.body_invweight0[bodies[1], 0]
-                model.pair_solref[p] = direct_solref(stiffness, weight)
-                model.pair_solimp[p] = (IMPEDANCE, IMPEDANCE, 0.001, 0.5, 2)
-
-
-def local_stiffness(semi_axes: FloatArray, along: float, plate_stiffness: float, pole_ratio: float) -> float:
-    """Return the stiffness of one contact of a lengthy shell [N/m].
-
-    A plate test has two contacts in series, hence the factor 2; the poles are stiffer than the girdle.
-
-    Args:
-        semi_axes: Half lengths, the longest first [m].
-        along: Cosine of the latitude: 0 on the girdle, 1 at a pole.
-        plate_stiffness: Stiffness between plates, mean over the orientations [N/m].
-        pole_ratio: Stiffness between plates standing over lying [1].
-    """
-    longest, other = float(semi_axes[0]), float(semi_axes[1])
-    # Gaussian curvature of a spheroid: radius of the equal sphere from b at the pole's b^2/a to a on the girdle.
-    radius = longest * (other / longest) ** 2 * (1 - along**2) * (longest / other) ** 2 + other**2 / longest * along**2
-    girdle, pole = longest, other**2 / longest
-    share = math.log(girdle / radius) / math.log(girdle / pole) if girdle != pole else 0.5
-    return 2 * plate_stiffness * pole_ratio ** (share - 0.5)
-
-
-def direct_solref(stiffness: float, inverse_mass: float) -> tuple[float, float]:
-    """Return MuJoCo's direct contact reference for a stiffness [N/m] and the bodies' inverse mass [1/kg]."""
-    scaled = stiffness * inverse_mass
-    return (-scaled, -2 * DAMPING_RATIO * math.sqrt(scaled))
 
 
 def _calm(graph: BondGraph) -> float:
