@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from prolepsis.engine import mujoco
-from prolepsis.scene.world import World, add_geom
+from prolepsis.scene.world import DEBRIS_IMPEDANCE_RATIO, World, add_geom
 from prolepsis.things import FloatArray, IntArray, Triple
 
 
@@ -209,6 +209,7 @@ class State:
         if old_thing not in {i for group in groups for i in group}:
             whole = np.flatnonzero(self.carrier == old_thing)
             self.carrier[whole] = -1
+        self.spec.option.impratio = DEBRIS_IMPEDANCE_RATIO
         # Rebuilding starts the count of warnings again.
         self.warnings += int(self.data.warning.number.sum())
         self.model, self.data = self.spec.recompile(self.model, self.data)

@@ -11,6 +11,7 @@ import numpy as np
 
 from prolepsis.engine import mujoco
 from prolepsis.log import Contacts
+from prolepsis.monitors.touching import empty_contacts
 from prolepsis.state import State
 from prolepsis.things import FloatArray, IntArray
 
@@ -106,16 +107,7 @@ class Recorder:
     def contact_columns(self, dt: float) -> Contacts:
         """Return one row for each pair of geoms and tick: forces averaged over the tick of length ``dt`` [s]."""
         if not self.contacts:
-            none = np.zeros(0, dtype=np.int64)
-            return Contacts(
-                tick=none,
-                a=none,
-                b=none,
-                force=np.zeros((0, 3)),
-                normal=np.zeros((0, 3)),
-                point=np.zeros((0, 3)),
-                peak=np.zeros(0),
-            )
+            return empty_contacts()
         counts = np.array([len(row[4]) for row in self.contacts])
         tick = np.repeat(np.array([row[0] for row in self.contacts]), counts)
         version = np.repeat(np.array([row[1] for row in self.contacts]), counts)
