@@ -49,7 +49,7 @@ def main() -> None:
     for hand, scenario in (("dry", "grasp_egg.toml"), ("wet", "wet_hand.toml")):
         heading(f"Twelve force levels, {hand} hand")
         with progress_line(False) as show:
-            print(report(sweep(HERE / scenario, {"Force": LEVELS}, progress=show)))
+            print(report(sweep(HERE / scenario, {"Force": LEVELS}, refine=3, progress=show)))
 
     heading("Pictures")
     render_strip(drop.log, OUT / "drop.png")

@@ -10,6 +10,7 @@ import pytest
 
 from prolepsis.campaign import sweep
 from prolepsis.cli import main
+from prolepsis.errors import InputError
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
 
@@ -44,3 +45,20 @@ def test_the_command_prints_a_row_for_each_value(scenario: Path, capfd: pytest.C
         ["0.01", "done"],
         ["no"],
     ]
+
+
+def test_transitions_are_narrowed_down_by_further_runs() -> None:
+    wide = sweep(EXAMPLES / "grasp_egg.toml", {"Force": [0.1, 5.0]})
+    narrow = sweep(EXAMPLES / "grasp_egg.toml", {"Force": [0.1, 5.0]}, refine=2)
+    assert len(narrow.rows) == 2
+    assert len(narrow.between) == 2
+    (before,), (after,) = wide.transitions(), narrow.transitions()
+    assert (
+        (before.below.outcome, before.above.outcome) == (after.below.outcome, after.above.outcome) == ("slip", "hold")
+    )
+    assert after.high / after.low == pytest.approx((before.high / before.low) ** 0.25)
+
+
+def test_only_one_name_can_be_refined() -> None:
+    with pytest.raises(InputError, match="only a sweep over one name"):
+        sweep(EXAMPLES / "grasp_egg.toml", {"Force": [1.0], "Acceleration": [1.0, 2.0]}, refine=1)

@@ -6,7 +6,7 @@ import itertools
 import multiprocessing
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from prolepsis.errors import InputError, InvalidSimulationError, ProlepsisError
@@ -62,11 +62,17 @@ class Outcomes:
 
     rows: tuple[Row, ...]
     """Outcomes, or errors."""
+    between: tuple[Row, ...] = ()
+    """Further runs between neighbouring levels of different outcome, which narrow the transitions down."""
 
     def transitions(self) -> tuple[Transition, ...]:
         """Return where the outcome changes from one force level to the next higher one."""
         ranked = sorted(
-            ((row.level, row.grasp) for row in self.rows if row.grasp is not None and row.level is not None),
+            (
+                (row.level, row.grasp)
+                for row in (*self.rows, *self.between)
+                if row.grasp is not None and row.level is not None
+            ),
             key=lambda pair: pair[0],
         )
         return tuple(
@@ -83,6 +89,7 @@ def sweep(
     ask: str | None = None,
     settings: Mapping[str, float | str] | None = None,
     limit: int | None = None,
+    refine: int = 0,
     workers: int = WORKERS,
     progress: Progress | None = None,
 ) -> Outcomes:
@@ -94,6 +101,7 @@ def sweep(
         ask: Goal to ask of every run.
         settings: Values that are the same in all runs.
         limit: Greatest number of answers a run.
+        refine: How many times to halve the interval of each transition force, by a run at its geometric middle.
         workers: Number of processes.
         progress: Called with how many runs are done.
 
@@ -106,25 +114,46 @@ def sweep(
     if not over or not all(over.values()):
         raise InputError("there is nothing to sweep over; give at least one name with at least one value")
     names = list(over)
+    if refine and len(names) > 1:
+        raise InputError("only a sweep over one name, the force of a grasp, can be refined")
     runs = [dict(zip(names, values, strict=True)) for values in itertools.product(*over.values())]
     # What is wrong with a file or a name is told once, before any process starts.
     base = read_scenario(scenario, settings or {})
     scenarios = [base.with_settings(run) for run in runs]
-    rows: dict[int, Row] = {}
     # A forked process would inherit the open OpenGL and Prolog connections of this one.
     context = multiprocessing.get_context("spawn")
     pool = ProcessPoolExecutor(min(workers, len(runs)), mp_context=context)
     try:
-        futures: dict[Future[Row], int] = {
-            pool.submit(_run, scenarios[i], run, ask, limit): i for i, run in enumerate(runs)
-        }
-        for done, future in enumerate(as_completed(futures), start=1):
-            rows[futures[future]] = future.result()
-            if progress is not None:
-                progress(f"{done} of {len(runs)} runs done")
+        outcomes = Outcomes(rows=_all(pool, scenarios, runs, ask, limit, progress))
+        for _ in range(refine):
+            middles = [(each.low * each.high) ** 0.5 for each in outcomes.transitions()]
+            halves: list[dict[str, float | str]] = [{names[0]: middle} for middle in middles]
+            if halves:
+                more = _all(pool, [base.with_settings(half) for half in halves], halves, ask, limit, progress)
+                outcomes = replace(outcomes, between=(*outcomes.between, *more))
     finally:
         pool.shutdown(cancel_futures=True)
-    return Outcomes(rows=tuple(rows[i] for i in range(len(runs))))
+    return outcomes
+
+
+def _all(
+    pool: ProcessPoolExecutor,
+    scenarios: Sequence[Scenario],
+    runs: Sequence[dict[str, float | str]],
+    ask: str | None,
+    limit: int | None,
+    progress: Progress | None,
+) -> tuple[Row, ...]:
+    """Return the rows of scenarios, in their order."""
+    rows: dict[int, Row] = {}
+    futures: dict[Future[Row], int] = {
+        pool.submit(_run, scenarios[i], run, ask, limit): i for i, run in enumerate(runs)
+    }
+    for done, future in enumerate(as_completed(futures), start=1):
+        rows[futures[future]] = future.result()
+        if progress is not None:
+            progress(f"{done} of {len(runs)} runs done")
+    return tuple(rows[i] for i in range(len(runs)))
 
 
 def _run(scenario: Scenario, values: dict[str, float | str], ask: str | None, limit: int | None) -> Row:

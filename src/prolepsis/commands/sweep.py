@@ -14,10 +14,13 @@ if TYPE_CHECKING:
 
 EXAMPLE = """\
   prolepsis sweep examples/grasp_egg.toml --over Force=force1,force5,force12
+  prolepsis sweep examples/grasp_egg.toml --over Force=0.1,5,60 --refine 4
   prolepsis sweep examples/grasp_egg.toml --over Force=1,5,20,45 --ask 'holds(broken(X), T)'
 Of a plan that grasps, each row tells whether the object slips, is held or is crushed, and the table ends with
-the forces between which this changes [N].
+the forces between which this changes [N]; --refine narrows them down by further runs.
 """
+MOST_HALVINGS = 20
+"""More would tell levels apart that the simulation does not."""
 
 
 def add_to(commands: Any) -> None:
@@ -37,6 +40,9 @@ def add_to(commands: Any) -> None:
         "--set", action="append", default=[], metavar="NAME=VALUE", help="value that is the same in all"
     )
     parser.add_argument("--ask", metavar="GOAL", help="goal to ask of every run; exit status 1 if none has an answer")
+    parser.add_argument(
+        "--refine", type=int, default=0, metavar="N", help="halve the interval of each transition force N times"
+    )
     parser.add_argument("--limit", type=int, metavar="N", help="at most N answers a run")
     parser.add_argument("--json", action="store_true", help="print one JSON object a row")
     add_progress(parser)
@@ -46,12 +52,22 @@ def run(given: argparse.Namespace) -> int:
     """Print one row a value, then the transitions."""
     if given.limit is not None and given.limit < 1:
         raise InputError(f"--limit {given.limit}: at least 1 answer must be allowed")
+    if not 0 <= given.refine <= MOST_HALVINGS:
+        raise InputError(f"--refine {given.refine}: between 0 and {MOST_HALVINGS} halvings are allowed")
     over = {name: _values(name, text) for name, text in settings(given.over).items()}
     chosen = settings(given.set)
     from prolepsis.campaign import sweep
 
     with progress_line(given.progress) as show:
-        outcomes = sweep(given.scenario, over, ask=given.ask, settings=chosen, limit=given.limit, progress=show)
+        outcomes = sweep(
+            given.scenario,
+            over,
+            ask=given.ask,
+            settings=chosen,
+            limit=given.limit,
+            refine=given.refine,
+            progress=show,
+        )
     print(_json(outcomes) if given.json else report(outcomes))
     return _status(outcomes, given.ask)
 
@@ -80,7 +96,7 @@ def report(outcomes: Outcomes) -> str:
         shown += [f"  {answer}" for answer in _notes(row)]
     shown += [
         f"{each.below.outcome} -> {each.above.outcome}: {each.force:.3g} +-{(each.high - each.low) / 2:.2g} N "
-        f"(between {each.low:g} and {each.high:g} N)"
+        f"(between {each.low:.4g} and {each.high:.4g} N)"
         for each in outcomes.transitions()
     ]
     return "\n".join(shown)
