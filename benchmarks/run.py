@@ -33,8 +33,8 @@ def main(chosen: list[str]) -> None:
 
 
 def _rows(file: Path) -> Callable[[], Rows]:
-    # A benchmark may import its neighbours.
-    sys.path.insert(0, str(file.parent))
+    # A benchmark may import its neighbours, and scenes from the tests.
+    sys.path[:0] = [str(file.parent), str(file.parent.parent)]
     spec = importlib.util.spec_from_file_location(file.stem, file)
     assert spec is not None
     assert spec.loader is not None
