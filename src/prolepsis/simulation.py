@@ -74,7 +74,7 @@ def simulate(
     channels = Channels(chosen_monitors(things, monitors))
     watched = Watched(state=state, hands=hands, breaking={c.thing.name: c for c in going if isinstance(c, Breaking)})
     detachments: list[tuple[int, Detachment]] = []
-    running: dict[Term, int] = {}
+    running: dict[Term, list[int]] = {}
     actions: list[Action] = []
     behaviour = program.start(_sense(state, hands, 0.0))
     ended_at: int | None = None
@@ -133,8 +133,8 @@ def simulate(
                 hand.measure(forces)
         tick += 1
 
-    for term, start in running.items():
-        actions.append(Action(term=term, start=start, end=tick, outcome="cut"))
+    cut = [(term, start) for term, starts in running.items() for start in starts]
+    actions += [Action(term=term, start=start, end=tick, outcome="cut") for term, start in cut]
     poses, carriers = recorder.pose_columns()
     return Log(
         dt=TICK,
@@ -154,11 +154,12 @@ def _sense(state: State, hands: dict[str, HandControl], time: float) -> Sense:
     return Sense(time=time, hands={name: hand.sense() for name, hand in hands.items()}, place=state.place)
 
 
-def _note(command: Command, tick: int, running: dict[Term, int], actions: list[Action]) -> None:
+def _note(command: Command, tick: int, running: dict[Term, list[int]], actions: list[Action]) -> None:
     if isinstance(command, Begin):
-        running[command.term] = tick
+        # The same action may run twice at once, as two waits that are done together.
+        running.setdefault(command.term, []).append(tick)
     elif isinstance(command, End):
-        start = running.pop(command.term, tick)
+        start = running[command.term].pop(0)
         actions.append(
             Action(
                 term=command.term,

@@ -77,7 +77,6 @@ def _with(begin: Begin, behaviour: Behaviour, sense: Sense) -> Behaviour:
         for name, hand in sense.hands.items():
             if name in begin.term.args:
                 greatest["peak_pad_force"] = max(greatest.get("peak_pad_force", 0.0), hand.pad_force)
-    # Its end is told with the commands of whatever comes next, at the same tick.
     sense = yield (*commands, End(term=begin.term, evidence=dict(greatest)))
     return sense
 
@@ -91,8 +90,24 @@ def _read_combinator(plan: Term, scene: Scene) -> Maker:
 
 def _in_sequence(makers: list[Maker]) -> Maker:
     def begin(sense: Sense) -> Behaviour:
+        ended: tuple[Command, ...] = ()
         for maker in makers:
-            sense = yield from maker(sense)
+            behaviour, fresh = maker(sense), True
+            while True:
+                try:
+                    made = next(behaviour) if fresh else behaviour.send(sense)
+                except StopIteration as stopped:
+                    sense = stopped.value
+                    break
+                fresh = False
+                # That an action has ended takes no time: the next one begins at the same tick.
+                if made and all(isinstance(command, End) for command in made):
+                    ended += made
+                    continue
+                sense = yield (*ended, *made)
+                ended = ()
+        if ended:
+            sense = yield ended
         return sense
 
     return begin
