@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, cast
 
-from prolepsis.errors import InputError, LogError, ScenarioError
+from prolepsis.errors import InputError, LogError, ScenarioError, UnknownNameError
 from prolepsis.log import Log
 from prolepsis.log_files import read_log_files, write_log_files
 from prolepsis.saved import read_timeline_files, write_timeline_files
@@ -105,16 +105,20 @@ def project(
     if out is not None:
         check_replaceable(out)
 
+    if read.robot not in (None, "hand"):
+        raise UnknownNameError.of("robot", read.robot, ["hand"], "robot")
+
     tell = progress or _silent
     tell("reading the knowledge")
     knowledge = read.knowledge_base()
     # What physics imports takes a moment, and a wrong scenario is refused before it.
     from prolepsis.fluents import recognize
-    from prolepsis.programs import read_program
+    from prolepsis.programs import check_units, read_program
     from prolepsis.scene import compile_world, compose
     from prolepsis.simulation import simulate
 
     scene = compose(knowledge)
+    check_units(read.plan, {name: each.unit for name, each in read.parameters.items()})
     program = read_program(read.bound_plan(), scene)
     tell("building the world")
     world = compile_world(scene)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from prolepsis.engine import mujoco
-from prolepsis.errors import InvalidSimulationError
+from prolepsis.errors import InvalidSimulationError, PlanError, ScenarioError
 from prolepsis.log import Action, Detachments, Log
 from prolepsis.monitors.channels import Channels, Watched, chosen_monitors
 from prolepsis.monitors.recorder import Recorder
@@ -27,8 +27,8 @@ TICK = 1.0e-3
 """The clock of the log [s]."""
 SETTLING = 0.5
 """A run without a given duration goes on for this long after its program has ended [s]."""
-LONGEST = 60.0
-"""A program that has not ended by itself is cut at this time [s]."""
+LONGEST = 600.0
+"""No run is longer than this [s]; each second of it takes about one to compute."""
 MAX_SPEED = 200.0
 """No thing of a household moves faster [m/s]; what does has diverged."""
 
@@ -59,8 +59,12 @@ def simulate(
         progress: Called now and then with the simulated time [s].
 
     Raises:
+        ScenarioError: If the duration is out of range, or a monitor does not suit its thing.
+        PlanError: If the plan does not end.
         InvalidSimulationError: If the physics diverges; the message says when and where.
     """
+    if duration is not None and not TICK <= duration <= LONGEST:
+        raise ScenarioError(f"duration: {duration:g} s is not between {TICK:g} and {LONGEST:g} s")
     state = State.of(world)
     things = world.scene.things
     drawing = Draw(rng=np.random.default_rng(seed), spread=draw)
@@ -83,8 +87,10 @@ def simulate(
         if duration is not None:
             if tick >= round(duration / TICK):
                 break
-        elif (ended_at is not None and tick >= ended_at + round(SETTLING / TICK)) or tick >= round(LONGEST / TICK):
+        elif ended_at is not None and tick >= ended_at + round(SETTLING / TICK):
             break
+        elif tick >= round(LONGEST / TICK):
+            raise PlanError(f"plan: it has not ended after {LONGEST:g} s; shorten it or give a duration")
         if progress is not None and tick % 100 == 0:
             progress(tick * TICK)
 
@@ -111,7 +117,7 @@ def simulate(
         for _ in range(count // together):
             # Physics step.
             mujoco.mj_step(state.model, state.data, together)
-            if not float(state.data.qvel @ state.data.qvel) < MAX_SPEED**2 * state.model.nv:
+            if not float(state.data.qvel @ state.data.qvel) <= MAX_SPEED**2 * state.model.nv:
                 _refuse(state, tick)
             recorder.substep(state, tick, TICK * together / count)
             # Phenomena, in their one order.
@@ -123,6 +129,8 @@ def simulate(
                     recorder.note_version(state)
                     for hand in hands.values():
                         hand.bind(state)
+                    # The forces are now those of the rebuilt model, which no step has used and no row holds yet.
+                    break
         if state.warnings or int(state.data.warning.number.sum()):
             _refuse(state, tick)
         for phenomenon in going:

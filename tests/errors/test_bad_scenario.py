@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from prolepsis.errors import InputError
+from prolepsis.errors import InputError, UnknownNameError
+from prolepsis.projection import project
 from prolepsis.scenario import Scenario
 from prolepsis.terms import Term
 
@@ -79,3 +80,13 @@ def test_draw_and_monitors_are_read_and_outlive_settings(tmp_path: Path) -> None
         assert scenario.monitors == {"hand1": ("speed", "height"), "floor": ()}
     plain = Scenario.load(write(tmp_path, GOOD))
     assert (plain.draw, plain.monitors) == (False, {})
+
+
+def test_an_unknown_robot_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "empty.ttl").write_text(
+        "@prefix : <https://w3id.org/prolepsis#> .\n:floor a :Floor .\n", encoding="utf-8"
+    )
+    file = tmp_path / "robot.toml"
+    file.write_text('situation = "empty.ttl"\nplan = "wait(0.1)"\nrobot = "pr3"\n', encoding="utf-8")
+    with pytest.raises(UnknownNameError, match="no robot named 'pr3'.*known: hand"):
+        project(file)

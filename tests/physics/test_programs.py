@@ -6,7 +6,7 @@ import pytest
 from tests.scenes import EGG_IN_HAND, scene
 
 from prolepsis.errors import InputError, PlanError, UnknownNameError
-from prolepsis.programs import ACTIONS, read_program
+from prolepsis.programs import ACTIONS, check_units, read_program
 from prolepsis.programs.commands import BaseTarget, Begin, CloseGripper, Command, End, HandSense, OpenGripper, Sense
 from prolepsis.scene import Scene
 from prolepsis.terms import Term, parse_term
@@ -113,7 +113,7 @@ REFUSED = [
     ("lift(hand1, high)", PlanError, r"must be a number \[m\], not high"),
     ("carry(hand1, 0.3, 2.0)", PlanError, r"must be a list of three lengths .*, such as \[0.2, 0, 0.1\]"),
     ("grasp(hand1, table1, 5)", PlanError, "table1 is not graspable: .* mm wide between the pads, hand1 opens 90 mm"),
-    ("sequence(lift(hand1, 0.1))", PlanError, "sequence needs a list of actions"),
+    ("sequence(lift(hand1, 0.1))", PlanError, "sequence needs a list of at least one action"),
     ("sequence([Something])", PlanError, "Something stands where an action is needed"),
     ("wait", PlanError, "wait is no action; an action looks like"),
 ]
@@ -138,3 +138,16 @@ def test_every_action_says_what_it_does_and_how_it_is_written() -> None:
         assert spec.doc.endswith("."), spec.name
         assert spec.usage().startswith(f"{spec.name}(")
     assert isinstance(parse_term("wait(1)"), Term)
+
+
+def test_two_actions_at_once_with_the_same_hand_are_refused(egg_in_hand: Scene) -> None:
+    with pytest.raises(PlanError, match="two actions done together command hand1"):
+        read_program(parse_term("together([lift(hand1, 0.1), sequence([close(hand1, 5)])])"), egg_in_hand)
+
+
+def test_a_parameter_in_another_unit_than_its_place_needs_is_refused() -> None:
+    plan = parse_term("sequence([wait(Time), grasp(hand1, egg1, Force)])")
+    check_units(plan, {"Time": "s", "Force": "N"})
+    check_units(plan, {"Time": None, "Force": None})
+    with pytest.raises(PlanError, match="parameter Force is in kg, but force of grasp needs N"):
+        check_units(plan, {"Time": "s", "Force": "kg"})

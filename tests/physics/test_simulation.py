@@ -131,3 +131,52 @@ def test_an_egg_lowered_into_a_bowl_rests_in_it() -> None:
     log = run(":floor a :Floor . :bowl1 a :Bowl ; :on :floor . :egg1 a :Egg ; :on :bowl1 .", duration=0.5)
     assert log.poses[-1, log.index("egg1"), 2] < 0.04
     assert len(log.detachments.tick) == 0
+
+
+def test_two_eggs_that_break_at_once_both_touch_the_floor() -> None:
+    log = run(":floor a :Floor . :egg1 a :Egg ; :z 0.5 . :egg2 a :Egg ; :z 0.5004 ; :x 0.5 .", duration=0.5)
+    floor = log.index("floor")
+    for egg in (log.index("egg1"), log.index("egg2")):
+        touching = (np.minimum(log.contacts.a, log.contacts.b) == min(egg, floor)) & (
+            np.maximum(log.contacts.a, log.contacts.b) == max(egg, floor)
+        )
+        assert touching.any()
+        assert egg in log.detachments.thing
+
+
+def test_a_cup_is_gripped_at_its_middle() -> None:
+    log = run(
+        ":floor a :Floor . :table1 a :Table . :cup1 a :Cup ; :on :table1 ; :radius 0.03 . "
+        ":hand1 a :Gripper ; :z 1.0 ; :pitch 90.0 .",
+        "sequence([grasp(hand1, cup1, 10), lift(hand1, 0.1), hold(hand1, 0.2)])",
+    )
+    assert log.channels["hand1.pad_force"][-1] == pytest.approx(10.0, rel=0.02)
+    assert log.poses[-1, log.index("cup1"), 2] - log.poses[0, log.index("cup1"), 2] == pytest.approx(0.1, abs=0.003)
+
+
+def test_what_a_vessel_is_said_to_contain_is_put_into_it() -> None:
+    known = scene(":floor a :Floor . :cup1 a :Cup ; :on :floor ; :contains :ball1 . :ball1 a :Ball ; :radius 0.01 .")
+    assert known.thing("ball1").position[2] == pytest.approx(0.015, abs=1e-3)
+
+
+REFUSED = [
+    (":floor a :Floor . :ball1 a :Ball ; :on :floor ; :radius 0.00001 .", "the world cannot be built: .*"),
+    (":floor a :Floor . :egg1 a :Egg ; :on :floor ; :length 0.5 ; :breadth 0.01 .", "allowed: a breadth of 0.5 to 1"),
+    (":floor a :Floor . :egg1 a :Egg ; :on :floor ; :broken true .", "egg1 is broken at the start"),
+]
+
+
+@pytest.mark.parametrize(("situation", "message"), REFUSED)
+def test_what_cannot_be_simulated_is_refused(situation: str, message: str) -> None:
+    with pytest.raises(KnowledgeError, match=message):
+        run(situation, duration=0.01)
+
+
+def test_a_duration_out_of_range_is_refused() -> None:
+    for duration in (1e-9, 1e9):
+        with pytest.raises(ScenarioError, match=r"duration: .* s is not between 0\.001 and 600 s"):
+            run(TWO_BLOCKS, duration=duration)
+
+
+def test_a_world_in_which_nothing_moves_runs() -> None:
+    assert run(":floor a :Floor .", duration=0.02).tick_count == 20

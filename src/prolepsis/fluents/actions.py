@@ -11,7 +11,7 @@ from prolepsis.terms import Value, format_value
 from prolepsis.timeline import Argument, Fact
 
 _VOWELS = "aeiou"
-ACTIONS = ("close", "grasp", "hold", "lift", "lower", "open", "push", "reach", "release", "wait")
+ACTIONS = ("carry", "close", "grasp", "hold", "lift", "reach", "release", "wait")
 """Actions that are listed with their events; any other action in a log becomes an event in the same way."""
 
 

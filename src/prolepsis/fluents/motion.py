@@ -64,7 +64,9 @@ def moving_runs(observation: Observation) -> dict[int, IntArray]:
 
 def _moving_parts(observation: Observation, unit: int) -> list[int]:
     """Return the things whose motion is the unit's; what is fixed does not move anyway."""
-    return [unit] if observation.has_role(unit, "Gripper") else observation.bodies(unit) or [unit]
+    bodies = observation.bodies(unit) or [unit]
+    # Of a gripper it is the base's: itself, or its first part, the palm.
+    return [unit if unit in bodies else bodies[0]] if observation.has_role(unit, "Gripper") else bodies
 
 
 def moving_masks(observation: Observation) -> BoolArray:

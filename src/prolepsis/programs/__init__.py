@@ -2,6 +2,6 @@
 
 from prolepsis.programs.action import ACTIONS, ActionSpec
 from prolepsis.programs.program import Program
-from prolepsis.programs.reading import COMBINATORS, read_program
+from prolepsis.programs.reading import COMBINATORS, check_units, read_program
 
-__all__ = ["ACTIONS", "COMBINATORS", "ActionSpec", "Program", "read_program"]
+__all__ = ["ACTIONS", "COMBINATORS", "ActionSpec", "Program", "check_units", "read_program"]

@@ -26,6 +26,10 @@ KINDS: Mapping[str, str] = {
 """What an argument of an action may be, with its unit."""
 
 
+UNITS: Mapping[str, str] = {"force": "N", "length": "m", "duration": "s", "speed": "m/s", "acceleration": "m/s2"}
+"""SI unit of each kind of quantity."""
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Parameter:
     """One argument of an action."""
@@ -125,7 +129,7 @@ def _bind(parameter: Parameter, value: Value, term: Term, scene: Scene) -> Any:
         raise PlanError(f"{where} must be a number {KINDS[parameter.kind]}, not {value}")
     number = _finite(float(value), where)
     if parameter.kind != "length" and number <= 0:
-        raise PlanError(f"{where} must be positive, not {number:g} {KINDS[parameter.kind]}")
+        raise PlanError(f"{where} must be positive, not {number:g} {UNITS[parameter.kind]}")
     return number
 
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import prolepsis.programs.actions as _actions
 from prolepsis.errors import PlanError, UnknownNameError
-from prolepsis.programs.action import ACTIONS, bind_arguments
+from prolepsis.programs.action import ACTIONS, KINDS, UNITS, bind_arguments
 from prolepsis.programs.commands import Begin, Behaviour, Command, End, Sense
 from prolepsis.programs.program import Program
 from prolepsis.scene.scene import Scene
@@ -35,6 +35,34 @@ def read_program(plan: Value, scene: Scene) -> Program:
         UnknownNameError: If an action, object or force level does not exist.
     """
     return Program(term=plan, begin=_read(plan, scene))
+
+
+def check_units(plan: Value, units: Mapping[str, str | None]) -> None:
+    """Check that each variable of a plan has the unit that its place in an action needs.
+
+    Args:
+        plan: The plan with its variables.
+        units: SI unit of each variable's value, or None for a pure number or a name.
+
+    Raises:
+        PlanError: If a unit does not fit.
+    """
+    if isinstance(plan, tuple):
+        for part in plan:
+            check_units(part, units)
+    if not isinstance(plan, Term):
+        return
+    spec = ACTIONS.get(plan.functor)
+    if spec is None:
+        for part in plan.args:
+            check_units(part, units)
+        return
+    for parameter, value in zip(spec.parameters, plan.args, strict=False):
+        given = units.get(value.name) if isinstance(value, Variable) else None
+        needed = UNITS.get(parameter.kind)
+        if isinstance(value, Variable) and given is not None and given != needed:
+            wanted = f"needs {needed}" if needed else f"is a {KINDS[parameter.kind]}"
+            raise PlanError(f"parameter {value.name} is in {given}, but {parameter.name} of {plan.functor} {wanted}")
 
 
 def _read(plan: Value, scene: Scene) -> Maker:
@@ -83,9 +111,32 @@ def _with(begin: Begin, behaviour: Behaviour, sense: Sense) -> Behaviour:
 
 def _read_combinator(plan: Term, scene: Scene) -> Maker:
     if len(plan.args) != 1 or not isinstance(plan.args[0], tuple) or not plan.args[0]:
-        raise PlanError(f"plan: {plan.functor} needs a list of actions: {COMBINATORS[plan.functor]}")
+        raise PlanError(f"plan: {plan.functor} needs a list of at least one action: {COMBINATORS[plan.functor]}")
     makers = [_read(part, scene) for part in plan.args[0]]
+    if plan.functor == "together":
+        _refuse_shared_hands(plan.args[0], scene)
     return _in_sequence(makers) if plan.functor == "sequence" else _all_together(makers)
+
+
+def _refuse_shared_hands(parts: tuple[Value, ...], scene: Scene) -> None:
+    """Refuse actions that move the same hand at the same time."""
+    hands = {thing.name for thing in scene.things if "Gripper" in thing.roles}
+    taken: set[str] = set()
+    for part in parts:
+        shared = _names(part) & hands & taken
+        if shared:
+            raise PlanError(
+                f"plan: two actions done together command {', '.join(sorted(shared))}; put them in a sequence"
+            )
+        taken |= _names(part) & hands
+
+
+def _names(plan: Value) -> set[str]:
+    """Return all atoms in a term."""
+    if isinstance(plan, str):
+        return {plan}
+    parts = plan if isinstance(plan, tuple) else plan.args if isinstance(plan, Term) else ()
+    return {name for part in parts for name in _names(part)}
 
 
 def _in_sequence(makers: list[Maker]) -> Maker:

@@ -41,6 +41,8 @@ class Hand:
     """Greatest force of a pad [N]."""
     workspace: float = 1.5
     """Distance from its first position that the hand can reach along each axis [m]."""
+    base_force: float = 150.0
+    """Greatest force of the base along each axis [N]: what it meets is pushed, not crushed."""
     position_gain: float = 2.0e4
     """Servo stiffness of the base [N/m]."""
     velocity_gain: float = 400.0
@@ -120,7 +122,9 @@ class Hand:
             world_axis = rotate((orientation[0], *(-v for v in orientation[1:])), tuple(np.eye(3)[k]))  # type: ignore[arg-type]
             joint = palm.add_joint(name=f"{name}/{axis}", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=world_axis)
             joint.armature = 0.05
-            self._servo(spec, f"{name}/{axis}", self.position_gain, self.velocity_gain)
+            servo = self._servo(spec, f"{name}/{axis}", self.position_gain, self.velocity_gain)
+            servo.forcelimited = True
+            servo.forcerange = [-self.base_force, self.base_force]
         for k, axis in enumerate(("yaw", "pitch", "roll")):
             joint = palm.add_joint(name=f"{name}/{axis}", type=mujoco.mjtJoint.mjJNT_HINGE, axis=np.eye(3)[2 - k])
             joint.armature = 0.005
@@ -146,13 +150,14 @@ class Hand:
         motor = spec.add_actuator(name=f"{name}/gap", target=f"{name}/gap", trntype=mujoco.mjtTrn.mjTRN_TENDON)
         motor.biastype = mujoco.mjtBias.mjBIAS_AFFINE
 
-    def _servo(self, spec: Any, joint: str, gain: float, damping: float) -> None:
+    def _servo(self, spec: Any, joint: str, gain: float, damping: float) -> Any:
         servo = spec.add_actuator(name=joint, target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT)
         servo.gaintype = mujoco.mjtGain.mjGAIN_FIXED
         servo.biastype = mujoco.mjtBias.mjBIAS_AFFINE
         servo.gainprm[0] = gain
         servo.biasprm[1] = -gain
         servo.biasprm[2] = -damping
+        return servo
 
 
 def rotate(orientation: Quaternion, vector: Triple) -> FloatArray:

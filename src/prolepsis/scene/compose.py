@@ -43,6 +43,8 @@ COLOURS = {
 """Colours of classes, for pictures only."""
 ATTRIBUTES = {"wet": "WetThing", "dirty": "DirtyThing", "broken": "BrokenThing"}
 """Attributes that controllers may change, and the class of what has them at the start."""
+SLENDEREST = 0.5
+"""Least breadth over length of an egg that is cut into pieces [1]."""
 GRIPPER_SHAPE = "parallelGripper"
 STUFFS = {"EggYolk": "yolk", "EggWhite": "white"}
 """Stuffs that are modelled as balls inside an egg, and their sort."""
@@ -56,6 +58,10 @@ def compose(kb: KnowledgeBase) -> Scene:
     """
     wholes = [name for name in kb.objects if kb.whole(name) is None]
     below = {subject: place for relation, subject, place in kb.relations() if relation == "on"}
+    # What is in something is lowered into it from above, as what is on something is lowered onto it.
+    below |= {
+        inside: vessel for relation, vessel, inside in kb.relations() if relation == "contains" and inside in wholes
+    }
     made: dict[str, tuple[Thing, ...]] = {}
     for name in _supporters_first(wholes, below):
         made[name] = _things_of(kb, name, made, below.get(name))
@@ -183,6 +189,12 @@ def _egg(kb: KnowledgeBase, egg: Thing) -> tuple[Thing, ...]:
     shells = [part for part in kb.parts(egg.name) if kb.is_a(part, "EggShell")]
     if len(shells) != 1:
         raise KnowledgeError(f"{egg.name} has {len(shells)} shells, needed: 1")
+    longest, _, breadth = egg.shape.geoms[0].size
+    if not SLENDEREST <= breadth / longest <= 1:
+        size = f"{2 * longest:g} m long and {2 * breadth:g} m broad"
+        raise KnowledgeError(f"{egg.name} is {size}; allowed: a breadth of {SLENDEREST:g} to 1 times the length")
+    if "BrokenThing" in kb.classes(egg.name):
+        raise KnowledgeError(f"{egg.name} is broken at the start; only whole eggs can be simulated")
     parts = [_part(kb, part, egg) for part in kb.parts(egg.name)]
     shell = next(part for part in parts if part.name == shells[0])
     stuffs = tuple(

@@ -18,6 +18,11 @@ def extent_along(thing: Thing, direction: FloatArray) -> float:
     return support(thing, direction) + support(thing, -direction)
 
 
+def middle(thing: Thing) -> FloatArray:
+    """Return the middle of a thing's bounds, seen from its origin in the world's axes [m], shape (3,)."""
+    return np.array([support(thing, axis) - support(thing, -axis) for axis in np.eye(3)]) / 2
+
+
 def _reach(geom: Geom, orientation: Quaternion, direction: FloatArray) -> float:
     turn = np.zeros(9)
     mujoco.mju_quat2Mat(turn, np.asarray(orientation, dtype=np.float64))

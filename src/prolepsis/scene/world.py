@@ -63,7 +63,7 @@ def compile_world(scene: Scene) -> World:
     """Return the world of a scene.
 
     Raises:
-        KnowledgeError: If two things overlap at the start.
+        KnowledgeError: If two things overlap at the start, or one is too small or light to be simulated.
     """
     spec = mujoco.MjSpec()
     spec.modelname = "prolepsis"
@@ -88,7 +88,10 @@ def compile_world(scene: Scene) -> World:
     for thing in scene.things:
         if "Breakable" in thing.roles:
             _add_pairs(spec, scene, thing)
-    model = spec.compile()
+    try:
+        model = spec.compile()
+    except ValueError as error:
+        raise KnowledgeError(f"the world cannot be built: {' '.join(str(error).split())}") from None
     _refuse_overlaps(scene, model)
     return World(scene=scene, spec=spec, model=model, ranks=ranks)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from prolepsis.programs.action import FORCE, HAND, OBJECT, action
-from prolepsis.programs.actions.motion import CLEARANCE, grasping_width, open_to, reach, within_workspace
+from prolepsis.programs.actions.motion import CLEARANCE, grasping_width, open_to, reach, way_to, within_workspace
 from prolepsis.programs.commands import Behaviour, CloseGripper, Sense
 from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.scene.scene import Scene
@@ -40,7 +40,7 @@ def close(scene: Scene, sense: Sense, *, hand: Thing, force: float) -> Behaviour
 def grasp(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, force: float) -> Behaviour:
     """Reach for the object unless the hand is there, then close the gripper with the given force."""
     width = grasping_width(hand, object)
-    way = np.asarray(sense.place(object.name)) - np.asarray(sense.hands[hand.name].position)
+    way = way_to(hand, object, sense)
     if np.abs(way).max() > CLEARANCE or sense.hands[hand.name].opening < width:
         sense = yield from reach(scene, sense, hand=hand, object=object, speed=0.25)
     return (yield from close_from(hand, width + CLEARANCE, force, sense))

@@ -9,9 +9,9 @@ from prolepsis.programs.action import HAND, OBJECT, Parameter, action
 from prolepsis.programs.commands import BaseTarget, Behaviour, OpenGripper, Sense
 from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.robots.hand import rotate
-from prolepsis.scene.extent import extent_along
+from prolepsis.scene.extent import extent_along, middle
 from prolepsis.scene.scene import Scene
-from prolepsis.things import Thing, Triple
+from prolepsis.things import FloatArray, Thing, Triple
 
 STANDOFF = 0.08
 """Before the last straight stretch, the hand stops this far from the object [m]."""
@@ -76,6 +76,11 @@ def grasping_width(hand: Thing, object: Thing) -> float:
     return extent_along(object, rotate(hand.orientation, (0.0, 1.0, 0.0)))
 
 
+def way_to(hand: Thing, object: Thing, sense: Sense) -> FloatArray:
+    """Return the way from a hand to the middle of an object [m], shape (3,); it is taken to stand as at the start."""
+    return np.asarray(sense.place(object.name)) + middle(object) - np.asarray(sense.hands[hand.name].position)
+
+
 def _added(start: Triple, step: Triple, share: float) -> Triple:
     return (start[0] + share * step[0], start[1] + share * step[1], start[2] + share * step[2])
 
@@ -103,7 +108,7 @@ def reach(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, speed: floa
     width = min(grasping_width(hand, object) + MARGIN, ROBOT.max_opening)
     if sense.hands[hand.name].opening < width:
         sense = yield from open_to(hand, width, sense)
-    way = np.asarray(sense.place(object.name)) - np.asarray(sense.hands[hand.name].position)
+    way = way_to(hand, object, sense)
     forward = rotate(hand.orientation, (1.0, 0.0, 0.0))
     ahead = float(way @ forward)
     first = way - min(ahead, STANDOFF) * forward
