@@ -13,6 +13,7 @@ from prolepsis.robots.hand import HAND
 from prolepsis.scene.egg_things import egg_things
 from prolepsis.scene.placing import resting_height
 from prolepsis.scene.scene import Scene
+from prolepsis.scene.world import HIDDEN_ROLES
 from prolepsis.shapes import SHAPES
 from prolepsis.things import Quaternion, Shape, Thing
 
@@ -87,7 +88,7 @@ def _things_of(
     thing = _thing(kb, name)
     under = made.get(rests_on, ()) if rests_on is not None else ()
     if rests_on is not None:
-        thing = _put_on(kb, thing, rests_on, under)
+        thing = _put_on(thing, rests_on, under)
     if kb.value(name, "shape").value == GRIPPER_SHAPE:
         opening = kb.quantity(name, "opening")
         if opening > HAND.max_opening:
@@ -167,20 +168,18 @@ def _orientation(q: dict[str, float]) -> Quaternion:
     return (w, x, y, z)
 
 
-def _put_on(kb: KnowledgeBase, thing: Thing, name: str, under: tuple[Thing, ...]) -> Thing:
+def _put_on(thing: Thing, name: str, under: tuple[Thing, ...]) -> Thing:
     """Return the thing lowered onto what it rests on; unless stated, its x and y are those of the supporter."""
-    solid = [t for t in under if t.shape.geoms and not t.roles & {"Piece", "Blob"}]
+    solid = [t for t in under if t.shape.geoms and not t.roles & HIDDEN_ROLES]
+    if not thing.shape.geoms:
+        raise KnowledgeError(f"{thing.name} is on {name}, but a gripper does not rest on anything; state its z")
     if not solid:
         raise KnowledgeError(f"{thing.name} is on {name}, which has no body to rest on")
     if "z" in thing.quantities:
         raise KnowledgeError(f"{thing.name} is on {name} and has z stated too; state one of the two")
-    base = under[0]
-    is_hand = "Gripper" in base.roles
-    x = thing.quantities.get("x", base.position[0])
-    y = thing.quantities.get("y", base.position[1])
+    x = thing.quantities.get("x", under[0].position[0])
+    y = thing.quantities.get("y", under[0].position[1])
     placed = replace(thing, position=(x, y, 0.0))
-    if is_hand and not placed.shape.geoms:
-        raise KnowledgeError(f"{thing.name} cannot rest on a gripper")
     height = resting_height(placed, solid)
     return replace(placed, position=(x, y, height))
 
