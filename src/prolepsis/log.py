@@ -10,9 +10,16 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from prolepsis.terms import Term
 from prolepsis.things import FloatArray, IntArray, Thing, Triple
+
+
+FREE = -1
+"""Holder of a particle that flows."""
+PARKED = -2
+"""Holder of a particle that has left the scene and is only counted."""
 
 
 def _no_rows() -> IntArray:
@@ -73,6 +80,28 @@ class Detachments:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class Particles:
+    """Where the liquids were: P particles, seen in F frames. Particles are never lost: each is in every frame."""
+
+    tick: IntArray = field(default_factory=_no_rows)
+    """Tick of each frame, shape (F,), ascending; the first is 0."""
+    position: npt.NDArray[np.float32] = field(default_factory=lambda: np.zeros((0, 0, 3), dtype=np.float32))
+    """World frame [m], shape (F, P, 3)."""
+    holder: npt.NDArray[np.int16] = field(default_factory=lambda: np.zeros((0, 0), dtype=np.int16))
+    """``FREE``; ``PARKED`` once it is far outside the scene; or the index of the thing that it is within and moves
+    with: the sponge that has absorbed it, the egg that still encloses it. Shape (F, P)."""
+    stuff: IntArray = field(default_factory=_no_rows)
+    """Index of the thing (``liq1``) that each particle is of, shape (P,)."""
+    mass: FloatArray = field(default_factory=lambda: np.zeros(0))
+    """[kg], shape (P,)."""
+    volume: FloatArray = field(default_factory=lambda: np.zeros(0))
+    """[m^3], shape (P,)."""
+    spacing: float = 0.0
+    """Distance of neighbours in the liquid at rest [m]: the cube root of a particle's volume. A particle that lies on a
+    wall has its centre half a spacing from it."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class Action:
     """One action of the control program, from its start to its end."""
 
@@ -110,6 +139,8 @@ class Log:
     """Joints between things."""
     detachments: Detachments = Detachments()
     """Broken joints of breakable things."""
+    particles: Particles = Particles()
+    """The liquids."""
     channels: Mapping[str, FloatArray] = field(default_factory=dict[str, FloatArray])
     """Further monitored series, each of shape (T,), named ``thing.quantity``: ``hand1.opening`` [m],
     ``hand1.gripper`` (1 opening, -1 closing, 0 idle), ``hand1.pad_force`` [N], ``egg1.load`` [1] ..."""

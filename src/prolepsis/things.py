@@ -41,11 +41,44 @@ class Geom:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class Hole:
+    """A round hole that is drilled through a shape."""
+
+    position: Triple
+    """A point on its axis, in the thing's frame [m]: it is drilled from here on."""
+    direction: Triple
+    """Unit vector along its axis, in the thing's frame."""
+    radius: float
+    """[m]"""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Surface:
+    """A closed surface of triangles, seen counter-clockwise from outside."""
+
+    vertices: tuple[Triple, ...]
+    """In the thing's frame [m]."""
+    triangles: tuple[tuple[int, int, int], ...]
+    """Indices of vertices."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class Shape:
-    """A rigid shape: a union of convex solids. Its cavities follow from it."""
+    """A rigid shape: a union of convex solids. Its cavities follow from it.
+
+    A profile or a surface, where there is one, says exactly what the solids approximate: what flows past the
+    shape, and what its cavity holds, goes by that.
+    """
 
     geoms: tuple[Geom, ...] = ()
     """The convex solids; empty for a whole that consists of its parts."""
+    profile: tuple[tuple[float, float], ...] = ()
+    """Closed outline (radius, height) [m] that is turned round the z axis of the thing's frame, counter-clockwise
+    (radius to the right, height up): the solid lies to its left. Empty for a shape that is not turned."""
+    surface: Surface | None = None
+    """The closed surface of a shape that was read from a mesh."""
+    holes: tuple[Hole, ...] = ()
+    """What is drilled out of the profile."""
     colour: tuple[float, float, float, float] = (0.7, 0.7, 0.7, 1.0)
     """Red, green, blue, alpha, each 0..1, for pictures only."""
 
