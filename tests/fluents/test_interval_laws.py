@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.fluents.worlds import FLOOR, STEP, ball, box, cup_geoms, free, roll, world
 
+from prolepsis.fields.hull import hull_planes
 from prolepsis.fluents import recognize
-from prolepsis.fluents.hull import hull_planes
 from prolepsis.fluents.intervals import close_gaps, debounce, drop_short, hysteresis, mask_of, runs, ticks_of, union
 from prolepsis.fluents.rigid import multiply, rotate
 from prolepsis.log import Contacts, Log

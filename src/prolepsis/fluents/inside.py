@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from prolepsis.fluents.cavity import ORIENTATIONS, Cavity, cavity_of
+from prolepsis.fields.cavity import ORIENTATIONS, Cavity, cavity_of
+from prolepsis.fields.solids import samples
 from prolepsis.fluents.intervals import mask_of, runs, ticks_of
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.rigid import rotate, rotate_back
 from prolepsis.fluents.shapes_in_time import RigidShape
-from prolepsis.fluents.solids import samples
 from prolepsis.things import BoolArray, FloatArray, IntArray
 
 INSIDE_SHARE = 0.5

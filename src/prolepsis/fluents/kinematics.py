@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from prolepsis.fields.solids import centroid, radius
 from prolepsis.fluents.intervals import ticks_of
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.rigid import rotate, turn
-from prolepsis.fluents.solids import centroid, radius
 from prolepsis.things import BoolArray, FloatArray
 
 BALANCE_WINDOW = 0.05

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from prolepsis.fields.solids import Solid, bounded, solid_of
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.rigid import rotate, rotate_back
-from prolepsis.fluents.solids import Solid, bounded, solid_of
 from prolepsis.things import FloatArray
 
 TOUCHING = 0.005

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from prolepsis.fields.solids import Solid, bounded, matrix
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.rigid import multiply, rotate_back
-from prolepsis.fluents.solids import Solid, bounded, matrix
 from prolepsis.things import BoolArray, FloatArray, IntArray
 
 

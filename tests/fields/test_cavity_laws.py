@@ -11,8 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from prolepsis.fluents.cavity import cavity_of, spill_levels
-from prolepsis.fluents.solids import Solid, solid_of
+from prolepsis.fields.cavity import cavity_of, spill_levels
+from prolepsis.fields.solids import Solid, solid_of
 from prolepsis.things import BoolArray, FloatArray, Geom
 
 NEIGHBOURS = [step for step in itertools.product((-1, 0, 1), repeat=3) if sum(map(abs, step)) == 1]

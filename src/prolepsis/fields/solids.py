@@ -7,7 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from prolepsis.fluents.hull import hull_planes
+from prolepsis.fields.hull import hull_planes
 from prolepsis.things import FloatArray, Geom, Shape
 
 SAMPLE_SCALES = (0.125, 0.25)

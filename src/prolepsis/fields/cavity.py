@@ -1,6 +1,6 @@
 """Cavities by spill height: what could not run out of a shape at rest, whichever way it is turned.
 
-The free space around a shape's solids is a grid. The spill level of a free node is the least height over which
+The free space around a shape's matter is a grid. The spill level of a free node is the least height over which
 every way to the outside must rise - found for all nodes at once, as water finds it. Below its spill level a
 node is in a depression; the free corner of an L, the space under an upturned cup, or a ring without a bottom
 has none.
@@ -8,17 +8,18 @@ has none.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Protocol
 
 import numpy as np
 
-from prolepsis.fluents.solids import Solid
 from prolepsis.things import BoolArray, FloatArray, IntArray
 
 NODE_COUNT = 30_000
 """Nodes of a grid: 31 along the edge of a cube, 3 mm for a cup of 10 cm."""
 BLOCKED = 0.501
-"""A node nearer to a solid than this share of a step is blocked. Any step through a wall, however thin, then
+"""A node nearer to matter than this share of a step is blocked. Any step through a wall, however thin, then
 has a blocked end, so that walls thinner than a step do not leak."""
 LEAST_DEPTH = 1.2
 """Depth of a depression [grid steps] below which it is an artefact of the grid's steps on a slanted surface."""
@@ -33,21 +34,33 @@ ORIENTATIONS = 10
 """Gravity's direction in the shape's frame is rounded to this fraction of one: it is at most 3 degrees off, which
 tilts the rim of a cup by less than a step."""
 _NEAR = 1.75
-"""Distance to a solid [grid steps] beyond which the nearest node is surely on the same side of every wall."""
+"""Distance to matter [grid steps] beyond which the nearest node is surely on the same side of every wall."""
+
+
+class Matter(Protocol):
+    """What takes up space: one of the convex solids of a shape, or the exact field of a whole one."""
+
+    def bounds(self) -> tuple[FloatArray, FloatArray]:
+        """Return the least and greatest coordinates in the shape's frame [m], each of shape (3,)."""
+        ...
+
+    def distance(self, points: FloatArray, /) -> FloatArray:
+        """Return the signed distance of points in the shape's frame [m], negative inside, (N, 3) to (N,)."""
+        ...
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class Cavity:
     """The free space around one rigid shape."""
 
-    solids: tuple[Solid, ...]
-    """The convex solids, in the shape's frame."""
+    matter: tuple[Matter, ...]
+    """What the space is free of, in the shape's frame."""
     origin: FloatArray
     """Position of the first node [m], shape (3,)."""
     step: float
     """Distance between nodes [m]."""
     distance: FloatArray
-    """Distance of each node to the nearest solid [m], cut off at a few steps, shape (nx, ny, nz)."""
+    """Distance of each node to the nearest matter [m], cut off at a few steps, shape (nx, ny, nz)."""
     _levels: dict[tuple[int, int, int, int], FloatArray] = field(
         default_factory=dict[tuple[int, int, int, int], FloatArray]
     )
@@ -88,13 +101,13 @@ class Cavity:
         """Return the points moved away from the nearest walls, on their own side, until they are clear."""
         moved, small = points.copy(), 1e-3 * self.step
         for _ in range(3):
-            distance = _union_distance(self.solids, moved)
+            distance = _union_distance(self.matter, moved)
             near = distance < clearance
             if not near.any():
                 break
             here = moved[near]
             slope = np.stack(
-                [_union_distance(self.solids, here + small * axis) - distance[near] for axis in np.eye(3)], axis=1
+                [_union_distance(self.matter, here + small * axis) - distance[near] for axis in np.eye(3)], axis=1
             )
             slope /= np.maximum(np.linalg.norm(slope, axis=1, keepdims=True), 1e-300)
             moved[near] = here + slope * (clearance - distance[near])[:, None]
@@ -115,9 +128,9 @@ class Cavity:
         return heights
 
 
-def cavity_of(solids: tuple[Solid, ...]) -> Cavity:
-    """Return the free space around the solids of one rigid shape."""
-    bounds = [solid.bounds() for solid in solids]
+def cavity_of(matter: Sequence[Matter]) -> Cavity:
+    """Return the free space around one rigid shape, the union of all ``matter``."""
+    bounds = [each.bounds() for each in matter]
     low: FloatArray = np.min([b[0] for b in bounds], axis=0)
     high: FloatArray = np.max([b[1] for b in bounds], axis=0)
     step = max(float(np.prod(np.maximum(high - low, 1e-4)) / NODE_COUNT) ** (1 / 3), LEAST_STEP)
@@ -127,15 +140,15 @@ def cavity_of(solids: tuple[Solid, ...]) -> Cavity:
     shape: IntArray = np.ceil((high + margin - origin) / step).astype(np.int64) + 1
     cut = step * (CLEARANCE_STEPS + 1)
     distance: FloatArray = np.full(tuple(shape.tolist()), cut)
-    for solid, (least, greatest) in zip(solids, bounds, strict=True):
+    for each, (least, greatest) in zip(matter, bounds, strict=True):
         first = np.maximum(np.floor((least - cut - origin) / step).astype(np.int64), 0)
         last = np.minimum(np.ceil((greatest + cut - origin) / step).astype(np.int64) + 1, shape)
         block = tuple(slice(int(a), int(b)) for a, b in zip(first, last, strict=True))
         extent = tuple((last - first).tolist())
         nodes = np.moveaxis(np.indices(extent, dtype=np.float64), 0, -1) + first
-        here = solid.distance((origin + step * nodes).reshape(-1, 3)).reshape(extent)
+        here = each.distance((origin + step * nodes).reshape(-1, 3)).reshape(extent)
         distance[block] = np.minimum(distance[block], here)
-    return Cavity(solids=solids, origin=origin, step=step, distance=distance)
+    return Cavity(matter=tuple(matter), origin=origin, step=step, distance=distance)
 
 
 def spill_levels(heights: FloatArray, blocked: BoolArray) -> FloatArray:
@@ -174,8 +187,8 @@ def _sweep(lines: FloatArray, bottom: FloatArray, order: range, back: int) -> No
         maximum(line, bottom[i], out=line)
 
 
-def _union_distance(solids: tuple[Solid, ...], points: FloatArray) -> FloatArray:
-    found = solids[0].distance(points)
-    for solid in solids[1:]:
-        np.minimum(found, solid.distance(points), out=found)
+def _union_distance(matter: Sequence[Matter], points: FloatArray) -> FloatArray:
+    found = matter[0].distance(points)
+    for each in matter[1:]:
+        found = np.minimum(found, each.distance(points))
     return found
