@@ -13,18 +13,68 @@ import pyarrow.parquet  # pyright: ignore[reportMissingTypeStubs]
 import pytest
 
 from prolepsis.errors import InputError, LogError
-from prolepsis.log import Log
+from prolepsis.log import FREE, PARKED, Log, Particles
 from prolepsis.log_files import read_log, write_log
+from prolepsis.particle_tables import STEP, rounded
 from prolepsis.sealed import MANIFEST, write_sealed
+from prolepsis.things import Hole, Shape, Surface, Thing
 from synthetic import egg_drop_log
 
-FILES = (MANIFEST, "log.json", "ticks.parquet", "poses.parquet", "contacts.parquet", "bonds.parquet")
+FILES = (
+    *(MANIFEST, "log.json", "ticks.parquet", "poses.parquet", "contacts.parquet", "bonds.parquet"),
+    *("particles.parquet", "particle_kinds.parquet", "particle_frames.parquet"),
+)
+
+
+def wet_log() -> Log:
+    """Return the log of a dropped egg beside which a liquid falls past a cup with a hole and a mesh."""
+    cup = Shape(
+        profile=((0.0, 0.0), (0.03, 0.0), (0.03, 0.05), (0.0275, 0.05), (0.0275, 0.003), (0.0, 0.003)),
+        holes=(Hole(position=(0.03, 0.0, 0.02), direction=(-1.0, 0.0, 0.0), radius=0.004),),
+    )
+    corners = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    mesh = Shape(surface=Surface(vertices=corners, triangles=((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))))
+    dry = egg_drop_log()
+    more = (
+        Thing(name="cup1", kind="Cup", shape=cup),
+        Thing(name="vase1", kind="Vase", shape=mesh),
+        Thing(name="liq1", kind="Water", mass=0.003, roles=frozenset({"Stuff", "Liquid"})),
+    )
+    still = np.zeros((dry.tick_count, len(more), 7))
+    still[:, :, 3] = 1.0
+    carriers = np.tile(np.array([8, 9, -1]), (dry.tick_count, 1))
+    return replace(
+        dry,
+        things=(*dry.things, *more),
+        poses=np.concatenate((dry.poses, still), axis=1),
+        carrier=np.concatenate((dry.carrier, carriers), axis=1),
+        particles=particles(),
+    )
+
+
+def particles(*, frames: int = 40, count: int = 30) -> Particles:
+    """Return particles of one liquid that fall, a third of which are absorbed and a few parked."""
+    random = np.random.default_rng(5)
+    time = np.arange(frames)[:, None] * 0.02
+    position = random.random((1, count, 3)) * np.array([0.1, 0.1, 0.5]) - 0.5 * 9.81 * time[..., None] ** 2
+    holder = np.full((frames, count), FREE, dtype=np.int16)
+    holder[30:, : count // 3] = 7
+    holder[35:, -3:] = PARKED
+    return Particles(
+        tick=np.arange(frames) * 20,
+        position=rounded(position),
+        holder=holder,
+        stuff=np.full(count, 10),
+        mass=np.full(count, 1e-4),
+        volume=np.full(count, 1e-7),
+        spacing=0.00464,
+    )
 
 
 @pytest.fixture(scope="module")
 def saved(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("logs") / "drop"
-    write_log(egg_drop_log(), folder)
+    write_log(wet_log(), folder)
     return folder
 
 
@@ -54,7 +104,69 @@ def assert_equal(one: Any, other: Any) -> None:
 
 
 def test_a_log_comes_back_as_it_was(saved: Path) -> None:
-    assert_equal(read_log(saved), egg_drop_log())
+    assert_equal(read_log(saved), wet_log())
+
+
+def test_a_log_without_liquids_comes_back_and_has_no_files_of_theirs(tmp_path: Path) -> None:
+    write_log(egg_drop_log(), tmp_path / "dry")
+    assert_equal(read_log(tmp_path / "dry"), egg_drop_log())
+    assert not list((tmp_path / "dry").glob("particle*"))
+
+
+def test_particles_that_are_not_rounded_come_back_too(tmp_path: Path) -> None:
+    position = particles().position + np.float32(1e-6)
+    position[3, 4] = np.float32(np.inf)
+    log = replace(wet_log(), particles=replace(particles(), position=position))
+    write_log(log, tmp_path / "fine")
+    assert_equal(read_log(tmp_path / "fine"), log)
+
+
+def test_rounding_departs_by_half_a_step_and_takes_two_bytes_a_number(tmp_path: Path) -> None:
+    random = np.random.default_rng(1)
+    way = np.cumsum(random.normal(scale=0.002, size=(200, 500, 3)), axis=0)
+    kept = rounded(way)
+    assert np.abs(kept - way).max() <= 0.5 * STEP + 1e-7
+    count = way.shape[1]
+    moving = replace(
+        particles(count=count),
+        tick=np.arange(200),
+        position=kept,
+        holder=np.full((200, count), FREE, dtype=np.int16),
+    )
+    write_log(replace(wet_log(), particles=moving), tmp_path / "moving")
+    assert (tmp_path / "moving" / "particles.parquet").stat().st_size < 2 * way.size
+
+
+@pytest.mark.parametrize(
+    ("name", "column", "value"),
+    [
+        ("particle_frames.parquet", "tick", 100_000),
+        ("particle_kinds.parquet", "stuff", 77),
+        ("particles.parquet", "holder", -5),
+        ("particles.parquet", "holder", 11),
+    ],
+)
+def test_particles_that_do_not_fit_the_log_are_refused(tmp_path: Path, name: str, column: str, value: int) -> None:
+    from prolepsis.log_files import read_log_files, write_log_files
+    from prolepsis.log_tables import read_table, write_table
+
+    write_log_files(wet_log(), tmp_path)
+    columns = {key: values.copy() for key, values in read_table(tmp_path / name).items()}
+    columns[column][-1] = value
+    write_table(tmp_path / name, columns)
+    with pytest.raises(LogError, match="its log is malformed"):
+        read_log_files(tmp_path)
+
+
+def test_a_lost_particle_is_noticed(tmp_path: Path) -> None:
+    from prolepsis.log_files import read_log_files, write_log_files
+    from prolepsis.log_tables import read_table, write_table
+
+    write_log_files(wet_log(), tmp_path)
+    columns = read_table(tmp_path / "particles.parquet")
+    write_table(tmp_path / "particles.parquet", {key: values[:-1] for key, values in columns.items()})
+    with pytest.raises(LogError, match="its log is malformed"):
+        read_log_files(tmp_path)
 
 
 def test_an_empty_log_comes_back(tmp_path: Path) -> None:
@@ -74,7 +186,7 @@ def test_an_empty_log_comes_back(tmp_path: Path) -> None:
 
 
 def test_equal_logs_give_equal_bytes(saved: Path, tmp_path: Path) -> None:
-    write_log(egg_drop_log(), tmp_path / "again")
+    write_log(wet_log(), tmp_path / "again")
     assert contents(tmp_path / "again") == contents(saved)
 
 
