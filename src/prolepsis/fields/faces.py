@@ -1,0 +1,273 @@
+"""The faces of solids near a point: distance and outward normal, for numba kernels.
+
+A solid is a row of flat arrays, so that a kernel needs no objects. Most solids show one face, the nearest; a
+turned profile shows each of its sides that the point is in front of, so that a corner is seen as two walls.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
+
+from prolepsis.things import FloatArray, IntArray
+
+PLANE, SPHERE, CAPSULE, ELLIPSOID, CYLINDER, BOX, HULL, PROFILE, GRID = range(9)
+"""Kinds of solids: MuJoCo's primitives, planes of a convex hull, a turned outline, distances on a grid."""
+MOST_FACES = 3
+"""Greatest number of faces that one solid shows to a point."""
+
+
+class Solids(NamedTuple):
+    """K solids as flat arrays."""
+
+    kind: IntArray
+    """One of the kinds above, shape (K,)."""
+    frame: FloatArray
+    """Position, then the rotation's rows, in the frame of the body, shape (K, 12)."""
+    size: FloatArray
+    """MuJoCo's size parameters [m], shape (K, 3)."""
+    span: IntArray
+    """First number and count of the solid's own numbers, first number and count of its holes', shape (K, 4)."""
+    numbers: FloatArray
+    """Planes (normal, offset), outlines (radius, height), holes (position, direction, radius) or grids (origin, step,
+    shape, values), one after the other."""
+
+
+@njit(cache=True, inline="never")
+def faces_of(solids: Solids, k: int, x: float, y: float, z: float, reach: float, found: FloatArray) -> int:
+    """Write the faces of solid ``k`` that a point sees within ``reach``, nearest first, and return their count.
+
+    Args:
+        solids: The solids.
+        k: Which of them.
+        x: Position of the point in the frame of the body [m].
+        y: As ``x``.
+        z: As ``x``.
+        reach: Faces further than this [m] need not be found.
+        found: Rows of signed distance and outward normal in the frame of the body, shape (MOST_FACES, 4).
+    """
+    f = solids.frame[k]
+    dx, dy, dz = x - f[0], y - f[1], z - f[2]
+    px = f[3] * dx + f[6] * dy + f[9] * dz
+    py = f[4] * dx + f[7] * dy + f[10] * dz
+    pz = f[5] * dx + f[8] * dy + f[11] * dz
+    kind = solids.kind[k]
+    count = 1
+    if kind == PLANE:
+        found[0, 0], found[0, 1], found[0, 2], found[0, 3] = pz, 0.0, 0.0, 1.0
+    elif kind == SPHERE:
+        _round(px, py, pz, solids.size[k, 0], found)
+    elif kind == CAPSULE:
+        half = solids.size[k, 1]
+        _round(px, py, pz - min(max(pz, -half), half), solids.size[k, 0], found)
+    elif kind == ELLIPSOID:
+        _ellipsoid(px, py, pz, solids.size[k], found)
+    elif kind == CYLINDER:
+        _cylinder(px, py, pz, solids.size[k], found)
+    elif kind == BOX:
+        _box(px, py, pz, solids.size[k], found)
+    elif kind == HULL:
+        _hull(px, py, pz, solids.numbers, solids.span[k], found)
+    elif kind == PROFILE:
+        count = _profile(px, py, pz, solids.numbers, solids.span[k], reach, found)
+    else:
+        _grid(px, py, pz, solids.numbers, solids.span[k, 0], found)
+    kept = 0
+    for i in range(count):
+        if found[i, 0] < reach:
+            nx, ny, nz = found[i, 1], found[i, 2], found[i, 3]
+            found[kept, 0] = found[i, 0]
+            found[kept, 1] = f[3] * nx + f[4] * ny + f[5] * nz
+            found[kept, 2] = f[6] * nx + f[7] * ny + f[8] * nz
+            found[kept, 3] = f[9] * nx + f[10] * ny + f[11] * nz
+            kept += 1
+    return kept
+
+
+@njit(cache=True)
+def _round(x: float, y: float, z: float, radius: float, found: FloatArray) -> None:
+    length = math.sqrt(x * x + y * y + z * z)
+    found[0, 0] = length - radius
+    if length > 1e-12:
+        found[0, 1], found[0, 2], found[0, 3] = x / length, y / length, z / length
+    else:
+        found[0, 1], found[0, 2], found[0, 3] = 0.0, 0.0, 1.0
+
+
+@njit(cache=True)
+def _ellipsoid(x: float, y: float, z: float, size: FloatArray, found: FloatArray) -> None:
+    # A close estimate: the implicit function over the length of its gradient, exact on the surface and for a sphere.
+    sx, sy, sz = x / size[0], y / size[1], z / size[2]
+    gx, gy, gz = sx / size[0], sy / size[1], sz / size[2]
+    scaled = math.sqrt(sx * sx + sy * sy + sz * sz)
+    slope = math.sqrt(gx * gx + gy * gy + gz * gz)
+    if slope < 1e-12:
+        found[0, 0] = -min(size[0], min(size[1], size[2]))
+        found[0, 1], found[0, 2], found[0, 3] = 0.0, 0.0, 1.0
+        return
+    found[0, 0] = scaled * (scaled - 1.0) / slope
+    found[0, 1], found[0, 2], found[0, 3] = gx / slope, gy / slope, gz / slope
+
+
+@njit(cache=True)
+def _cylinder(x: float, y: float, z: float, size: FloatArray, found: FloatArray) -> None:
+    radial = math.sqrt(x * x + y * y)
+    cx, cy = (x / radial, y / radial) if radial > 1e-12 else (1.0, 0.0)
+    side, top = radial - size[0], abs(z) - size[1]
+    up = 1.0 if z >= 0.0 else -1.0
+    if side > 0.0 and top > 0.0:
+        distance = math.sqrt(side * side + top * top)
+        found[0, 0] = distance
+        found[0, 1], found[0, 2], found[0, 3] = cx * side / distance, cy * side / distance, up * top / distance
+    elif side > top:
+        found[0, 0], found[0, 1], found[0, 2], found[0, 3] = side, cx, cy, 0.0
+    else:
+        found[0, 0], found[0, 1], found[0, 2], found[0, 3] = top, 0.0, 0.0, up
+
+
+@njit(cache=True)
+def _box(x: float, y: float, z: float, size: FloatArray, found: FloatArray) -> None:
+    qx, qy, qz = abs(x) - size[0], abs(y) - size[1], abs(z) - size[2]
+    ux, uy, uz = (1.0 if x >= 0.0 else -1.0), (1.0 if y >= 0.0 else -1.0), (1.0 if z >= 0.0 else -1.0)
+    if qx <= 0.0 and qy <= 0.0 and qz <= 0.0:
+        found[0, 1], found[0, 2], found[0, 3] = 0.0, 0.0, 0.0
+        if qx >= qy and qx >= qz:
+            found[0, 0], found[0, 1] = qx, ux
+        elif qy >= qz:
+            found[0, 0], found[0, 2] = qy, uy
+        else:
+            found[0, 0], found[0, 3] = qz, uz
+        return
+    ox, oy, oz = max(qx, 0.0), max(qy, 0.0), max(qz, 0.0)
+    distance = math.sqrt(ox * ox + oy * oy + oz * oz)
+    found[0, 0] = distance
+    found[0, 1], found[0, 2], found[0, 3] = ux * ox / distance, uy * oy / distance, uz * oz / distance
+
+
+@njit(cache=True)
+def _hull(x: float, y: float, z: float, numbers: FloatArray, span: IntArray, found: FloatArray) -> None:
+    # Inside and in front of a side it is exact, at edges too near by a little.
+    found[0, 0] = -np.inf
+    for p in range(span[0], span[0] + span[1], 4):
+        distance = numbers[p] * x + numbers[p + 1] * y + numbers[p + 2] * z - numbers[p + 3]
+        if distance > found[0, 0]:
+            found[0, 0] = distance
+            found[0, 1], found[0, 2], found[0, 3] = numbers[p], numbers[p + 1], numbers[p + 2]
+
+
+@njit(cache=True)
+def _profile(
+    x: float, y: float, z: float, numbers: FloatArray, span: IntArray, reach: float, found: FloatArray
+) -> int:
+    """Return the sides of a turned outline that the point is in front of, or the nearest if there is none."""
+    r = math.sqrt(x * x + y * y)
+    cx, cy = (x / r, y / r) if r > 1e-12 else (1.0, 0.0)
+    first, last = span[0], span[0] + span[1]
+    nearest, nearest_r, nearest_z = np.inf, 0.0, 1.0
+    inside, corner = False, False
+    count = 0
+    for p in range(first, last, 2):
+        q = p + 2 if p + 2 < last else first
+        ar, az, br, bz = numbers[p], numbers[p + 1], numbers[q], numbers[q + 1]
+        er, ez = br - ar, bz - az
+        if (az > z) != (bz > z) and r < ar + er * (z - az) / ez:
+            inside = not inside
+        length = math.sqrt(er * er + ez * ez)
+        if length < 1e-12 or (ar < 1e-9 and br < 1e-9):
+            continue
+        nr, nz = ez / length, -er / length
+        t = ((r - ar) * er + (z - az) * ez) / (length * length)
+        in_front = 0.0 <= t <= 1.0
+        t = min(max(t, 0.0), 1.0)
+        fr, fz = r - (ar + t * er), z - (az + t * ez)
+        signed = nr * fr + nz * fz
+        distance = math.sqrt(fr * fr + fz * fz)
+        if distance < nearest:
+            nearest, nearest_r, nearest_z = distance, nr, nz
+            if not in_front and distance > 1e-12:
+                nearest_r, nearest_z = fr / distance, fz / distance
+                corner = True
+            else:
+                corner = False
+        if in_front and 0.0 < signed < reach and count < found.shape[0]:
+            place = count
+            while place > 0 and found[place - 1, 0] > signed:
+                found[place] = found[place - 1]
+                place -= 1
+            found[place, 0], found[place, 1], found[place, 2], found[place, 3] = signed, nr * cx, nr * cy, nz
+            count += 1
+    if inside:
+        nearest, count = -nearest, 0
+        if corner:
+            nearest_r, nearest_z = -nearest_r, -nearest_z
+    if count == 0 or nearest < found[0, 0] - 1e-9:
+        count = min(count, found.shape[0] - 1)
+        for place in range(count, 0, -1):
+            found[place] = found[place - 1]
+        found[0, 0], found[0, 1], found[0, 2], found[0, 3] = nearest, nearest_r * cx, nearest_r * cy, nearest_z
+        count += 1
+    return _drilled(x, y, z, numbers, span, found, count)
+
+
+@njit(cache=True)
+def _drilled(
+    x: float, y: float, z: float, numbers: FloatArray, span: IntArray, found: FloatArray, count: int
+) -> int:
+    """Return the faces as they are where a hole is drilled through them."""
+    for h in range(span[2], span[2] + span[3], 7):
+        ox, oy, oz = x - numbers[h], y - numbers[h + 1], z - numbers[h + 2]
+        ax, ay, az = numbers[h + 3], numbers[h + 4], numbers[h + 5]
+        along = ox * ax + oy * ay + oz * az
+        if along <= 0.0:
+            continue
+        ox, oy, oz = ox - along * ax, oy - along * ay, oz - along * az
+        off = math.sqrt(ox * ox + oy * oy + oz * oz)
+        room = numbers[h + 6] - off
+        if room <= 0.0:
+            continue
+        if off > 1e-12:
+            ox, oy, oz = -ox / off, -oy / off, -oz / off
+        for i in range(count):
+            ahead = found[i, 0]
+            # A face that the hole's axis does not pierce (the bottom, beside a hole in the wall) stays.
+            if abs(found[i, 1] * ax + found[i, 2] * ay + found[i, 3] * az) < 0.5:
+                continue
+            if ahead <= 0.0:
+                found[i, 0], found[i, 1], found[i, 2], found[i, 3] = room, ox, oy, oz
+            else:
+                distance = math.sqrt(ahead * ahead + room * room)
+                found[i, 1] = (ahead * found[i, 1] + room * ox) / distance
+                found[i, 2] = (ahead * found[i, 2] + room * oy) / distance
+                found[i, 3] = (ahead * found[i, 3] + room * oz) / distance
+                found[i, 0] = distance
+    return count
+
+
+@njit(cache=True)
+def _grid(x: float, y: float, z: float, numbers: FloatArray, start: int, found: FloatArray) -> None:
+    step = numbers[start + 3]
+    nx, ny, nz = int(numbers[start + 4]), int(numbers[start + 5]), int(numbers[start + 6])
+    gx, gy, gz = (x - numbers[start]) / step, (y - numbers[start + 1]) / step, (z - numbers[start + 2]) / step
+    cx, cy, cz = min(max(gx, 0.0), nx - 1.001), min(max(gy, 0.0), ny - 1.001), min(max(gz, 0.0), nz - 1.001)
+    i, j, k = int(cx), int(cy), int(cz)
+    u, v, w = cx - i, cy - j, cz - k
+    base = start + 7 + (i * ny + j) * nz + k
+    a = numbers[base] * (1 - w) + numbers[base + 1] * w
+    b = numbers[base + nz] * (1 - w) + numbers[base + nz + 1] * w
+    base += ny * nz
+    c = numbers[base] * (1 - w) + numbers[base + 1] * w
+    d = numbers[base + nz] * (1 - w) + numbers[base + nz + 1] * w
+    sx = (c * (1 - v) + d * v) - (a * (1 - v) + b * v)
+    sy = (b - a) * (1 - u) + (d - c) * u
+    base = start + 7 + (i * ny + j) * nz + k
+    front = (numbers[base + 1] - numbers[base]) * (1 - v) + (numbers[base + nz + 1] - numbers[base + nz]) * v
+    base += ny * nz
+    back = (numbers[base + 1] - numbers[base]) * (1 - v) + (numbers[base + nz + 1] - numbers[base + nz]) * v
+    sz = front * (1 - u) + back * u
+    slope = max(math.sqrt(sx * sx + sy * sy + sz * sz), 1e-12)
+    beyond = step * math.sqrt((gx - cx) ** 2 + (gy - cy) ** 2 + (gz - cz) ** 2)
+    found[0, 0] = (a * (1 - v) + b * v) * (1 - u) + (c * (1 - v) + d * v) * u + beyond
+    found[0, 1], found[0, 2], found[0, 3] = sx / slope, sy / slope, sz / slope

@@ -1,0 +1,106 @@
+"""The signed distance field of a shape: how far points are from its surface, negative within the solid."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
+
+from prolepsis.fields.faces import (
+    BOX,
+    CAPSULE,
+    CYLINDER,
+    ELLIPSOID,
+    GRID,
+    HULL,
+    MOST_FACES,
+    PLANE,
+    PROFILE,
+    SPHERE,
+    Solids,
+    faces_of,
+)
+from prolepsis.fields.grid import grid_of
+from prolepsis.fields.hull import hull_planes
+from prolepsis.fields.solids import Solid, solid_of
+from prolepsis.things import FloatArray, Shape
+
+PRIMITIVES = {
+    "plane": PLANE,
+    "sphere": SPHERE,
+    "capsule": CAPSULE,
+    "ellipsoid": ELLIPSOID,
+    "cylinder": CYLINDER,
+    "box": BOX,
+    "mesh": HULL,
+}
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class Field:
+    """The signed distance of one shape in the frame of its thing."""
+
+    solids: Solids
+    """The solids whose union it is."""
+
+    def distance(self, points: FloatArray) -> FloatArray:
+        """Return the signed distance of points, shape (N, 3), to the surface [m], shape (N,)."""
+        return _distances(self.solids, np.ascontiguousarray(points, dtype=np.float64))
+
+
+@lru_cache(maxsize=256)
+def field_of(shape: Shape) -> Field:
+    """Return the field of a shape: of its profile or surface if it has one, else of its convex solids."""
+    return Field(solids=solids_as_arrays(shape))
+
+
+def solids_as_arrays(shape: Shape) -> Solids:
+    """Return a shape as flat arrays."""
+    if shape.profile:
+        holes = [(*hole.position, *hole.direction, hole.radius) for hole in shape.holes]
+        return _joined([(PROFILE, _AT_HOME, (0.0, 0.0, 0.0), np.ravel(shape.profile), np.ravel(holes))])
+    if shape.surface is not None:
+        return _joined([(GRID, _AT_HOME, (0.0, 0.0, 0.0), grid_of(shape.surface), np.zeros(0))])
+    return _joined([_convex(solid_of(geom)) for geom in shape.geoms])
+
+
+_AT_HOME = np.array([0.0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1])
+_Row = tuple[int, FloatArray, Sequence[float], FloatArray, FloatArray]
+
+
+def _convex(solid: Solid) -> _Row:
+    numbers = np.zeros(0) if solid.type != "mesh" else hull_planes(solid.corners)
+    frame = np.concatenate([solid.position, solid.rotation.ravel()])
+    return (PRIMITIVES[solid.type], frame, [float(v) for v in solid.size], np.ravel(numbers), np.zeros(0))
+
+
+def _joined(rows: Sequence[_Row]) -> Solids:
+    spans: list[tuple[int, int, int, int]] = []
+    numbers: list[FloatArray] = []
+    end = 0
+    for *_, own, holes in rows:
+        spans.append((end, len(own), end + len(own), len(holes)))
+        numbers += [own, holes]
+        end += len(own) + len(holes)
+    return Solids(
+        kind=np.array([row[0] for row in rows], dtype=np.int64),
+        frame=np.array([row[1] for row in rows], dtype=np.float64).reshape(-1, 12),
+        size=np.array([row[2] for row in rows], dtype=np.float64).reshape(-1, 3),
+        span=np.array(spans, dtype=np.int64).reshape(-1, 4),
+        numbers=np.concatenate([np.zeros(0), *numbers]),
+    )
+
+
+@njit(cache=True)
+def _distances(solids: Solids, points: FloatArray) -> FloatArray:
+    result = np.full(len(points), np.inf)
+    found = np.zeros((MOST_FACES, 4))
+    for i in range(len(points)):
+        for k in range(len(solids.kind)):
+            count = faces_of(solids, k, points[i, 0], points[i, 1], points[i, 2], np.inf, found)
+            if count > 0:
+                result[i] = min(result[i], found[0, 0])
+    return result
