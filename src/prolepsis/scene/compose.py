@@ -42,6 +42,8 @@ COLOURS = {
     "Sponge": (0.95, 0.83, 0.30, 1.0),
 }
 """Colours of classes, for pictures only."""
+FEATURES = ("lid",)
+"""What a shape may have or not."""
 ATTRIBUTES = {"wet": "WetThing", "dirty": "DirtyThing", "broken": "BrokenThing"}
 """Attributes that controllers may change, and the class of what has them at the start."""
 SLENDEREST = 0.5
@@ -117,32 +119,25 @@ def _thing(kb: KnowledgeBase, name: str) -> Thing:
         raise KnowledgeError(f"{name} ({kb.kind(name)}) has no shape; state :shape, one of {', '.join(SHAPES)}")
     kind = kb.kind(name)
     shape = str(kb.value(name, "shape").value)
-    quantities = {p: float(k.value) for p, k in kb.quantities(name).items() if isinstance(k.value, float)}
+    known = kb.quantities(name)
+    quantities = {p: float(k.value) for p, k in known.items() if isinstance(k.value, float)}
+    quantities |= {feature: 1.0 for feature in FEATURES if feature in known and known[feature].value == "true"}
     quantities |= {attribute: 1.0 for attribute, cls in ATTRIBUTES.items() if kb.is_a(name, cls)}
     wet = kb.default_of((f"Wet{kind}",), "friction") if f"Wet{kind}" in kb.vocabulary.classes else None
     if wet is not None and isinstance(wet[1].value, float):
         quantities["frictionWhenWet"] = wet[1].value
     fixed = kb.is_a(name, "Furniture")
-    if shape == GRIPPER_SHAPE:
-        geoms = ()
-    elif shape in SHAPES:
-        family = "table" if kb.is_a(name, "Table") and shape == "box" else shape
-        try:
-            geoms = SHAPES[family](quantities)
-        except KeyError as missing:
-            raise KnowledgeError(f"{name} ({kind}) is a {shape} but has no {missing.args[0]}") from None
-    else:
-        raise KnowledgeError(f"{name}: shape {shape} cannot be built; known: {', '.join(SHAPES)}")
-    if not fixed and geoms and "mass" not in quantities:
+    built = Shape() if shape == GRIPPER_SHAPE else _built(kb, name, shape, quantities)
+    if not fixed and built.geoms and "mass" not in quantities:
         raise KnowledgeError(f"{name} ({kind}) has no mass and no density to derive it from")
     default_height = 0.0
-    if fixed and geoms and geoms[0].type != "plane":
+    if fixed and built.geoms and built.geoms[0].type != "plane":
         default_height = quantities.get("height", 0.0) / 2
     orientation = _orientation(quantities)
     return Thing(
         name=name,
         kind=kind,
-        shape=Shape(geoms=geoms, colour=COLOURS.get(kind, Shape().colour)),
+        shape=replace(built, colour=COLOURS.get(kind, Shape().colour)),
         position=(quantities.get("x", 0.0), quantities.get("y", 0.0), quantities.get("z", default_height)),
         orientation=orientation,
         mass=quantities.get("mass", 0.0),
@@ -150,6 +145,19 @@ def _thing(kb: KnowledgeBase, name: str) -> Thing:
         fixed=fixed,
         quantities=quantities,
     )
+
+
+def _built(kb: KnowledgeBase, name: str, shape: str, quantities: dict[str, float]) -> Shape:
+    """Return the shape of a whole in its own frame."""
+    if shape not in SHAPES:
+        raise KnowledgeError(f"{name}: shape {shape} cannot be built; known: {', '.join(SHAPES)}")
+    family = "table" if kb.is_a(name, "Table") and shape == "box" else shape
+    try:
+        return SHAPES[family](quantities)
+    except KeyError as missing:
+        raise KnowledgeError(f"{name} ({kb.kind(name)}) is a {shape} but has no {missing.args[0]}") from None
+    except KnowledgeError as error:
+        raise KnowledgeError(f"{name} ({kb.kind(name)}): {error}") from None
 
 
 def _orientation(q: dict[str, float]) -> Quaternion:

@@ -1,13 +1,13 @@
-"""Shapes: from the name of a family and its extents to convex solids."""
+"""Shapes: from the name of a family and its extents to convex solids, and to the exact outline where there is one."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
 from prolepsis.shapes import simple, vessel
-from prolepsis.things import Geom
+from prolepsis.things import Shape
 
-SHAPES: Mapping[str, Callable[[Mapping[str, float]], tuple[Geom, ...]]] = {
+SHAPES: Mapping[str, Callable[[Mapping[str, float]], Shape]] = {
     "box": simple.box,
     "cylinder": simple.cylinder,
     "sphere": simple.sphere,
