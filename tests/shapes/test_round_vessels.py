@@ -95,7 +95,7 @@ def test_a_hole_in_the_bottom_goes_through_and_leaves_the_rest(shape: str, exten
 
 
 def test_a_bowl_has_a_hole_where_the_wall_slants() -> None:
-    bowl = SHAPES["bowl"]({**BOWL, "holeRadius": 0.005, "holeHeight": 0.025})
+    bowl = SHAPES["bowl"]({**BOWL, "holeRadius": 0.005, "holeHeight": 0.025, "holeAngle": 0.1})
     (hole,) = bowl.holes
     through = np.array(hole.position) + np.linspace(0.0, 0.2, 400)[:, None] * np.array(hole.direction)
     assert (solid_distance(bowl, through) > 0.002).all()
