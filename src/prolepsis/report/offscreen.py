@@ -11,12 +11,10 @@ from types import TracebackType
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from prolepsis.errors import MissingToolError
-
-Picture = npt.NDArray[np.uint8]
-"""Rows of pixels, red, green, blue, shape (height, width, 3)."""
+from prolepsis.report.liquid import Eye, Picture
+from prolepsis.things import FloatArray
 
 BACKENDS = ("egl", "osmesa")
 ADVICE = "apt install libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri"
@@ -59,6 +57,7 @@ class Camera:
         self._options = mujoco.MjvOption()
         self._rectangle = mujoco.MjrRect(0, 0, width, height)
         self._renderer = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_150.value)
+        self._renderer.readDepthMap = mujoco.mjtDepthMap.mjDEPTH_ZEROFAR.value
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self._renderer)
         self._pixels = np.zeros((height, width, 3), dtype=np.uint8)
 
@@ -71,6 +70,26 @@ class Camera:
         mujoco.mjr_readPixels(self._pixels, None, self._rectangle, self._renderer)
         # OpenGL counts rows from below.
         return np.ascontiguousarray(self._pixels[::-1])
+
+    def distances(self) -> FloatArray:
+        """Return how far ahead what the last picture shows is in each pixel [m], shape (height, width)."""
+        raw = np.zeros(self._pixels.shape[:2], dtype=np.float32)
+        self._mujoco.mjr_readPixels(None, raw, self._rectangle, self._renderer)
+        extent, clip = self._model.stat.extent, self._model.vis.map
+        near, far = clip.znear * extent, clip.zfar * extent
+        # Reversed depth: 1 at the near plane, 0 at the far one.
+        return near * far / (near + raw[::-1].astype(np.float64) * (far - near))
+
+    def eye(self) -> Eye:
+        """Return the camera of the last picture."""
+        left, right = self._scene.camera
+        lens = (left.frustum_top - left.frustum_bottom) / left.frustum_near
+        return Eye(
+            position=(np.asarray(left.pos, dtype=np.float64) + np.asarray(right.pos)) / 2,
+            forward=np.asarray(left.forward, dtype=np.float64),
+            up=np.asarray(left.up, dtype=np.float64),
+            focal=self._pixels.shape[0] / lens,
+        )
 
     def __enter__(self) -> Camera:
         return self

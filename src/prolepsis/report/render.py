@@ -10,11 +10,14 @@ import numpy as np
 
 from prolepsis.errors import InputError
 from prolepsis.log import Log
-from prolepsis.report.offscreen import Camera, Picture
+from prolepsis.report.liquid import Picture, painted
+from prolepsis.report.offscreen import Camera
 from prolepsis.sealed import check_replaceable, written_aside
 
 FRAME_RATE = 30
 """Frames of a video a second of watching."""
+BEHIND = 0.6
+"""Part of what a vessel adds to a picture that is due to its far walls [1]: three of the five surfaces in line."""
 
 
 def render_video(
@@ -134,7 +137,15 @@ def pictures(log: Log, ticks: Sequence[int], *, size: tuple[int, int], **view: f
     stage = Stage(log, width=width, height=height)
     with Camera(stage.model, width=width, height=height, view=stage.view(list(ticks), **view)) as camera:
         for tick in ticks:
-            yield camera.take(stage.show(tick))
+            liquid = stage.liquid(tick)
+            if liquid is None:
+                yield camera.take(stage.show(tick))
+                continue
+            bare = camera.take(stage.show(tick, vessels=False))
+            wet, solid = painted(bare, camera.distances(), camera.eye(), *liquid)
+            # What vessels add is seen over the liquid too, but for their walls behind it.
+            added = camera.take(stage.show(tick)).astype(np.float64) - bare
+            yield np.clip(wet + added * (1.0 - BEHIND * solid[..., None]), 0, 255).astype(np.uint8)
 
 
 def _ticks(log: Log, times: Any) -> list[int]:

@@ -8,6 +8,8 @@ import numpy as np
 
 from prolepsis.engine import mujoco
 from prolepsis.log import Log
+from prolepsis.report.droplets import Droplets, Wet
+from prolepsis.report.lathe import turned_surface
 from prolepsis.things import BoolArray, FloatArray, Geom, Thing
 
 APPEARING = frozenset({"Piece", "Blob"})
@@ -33,6 +35,12 @@ MARGIN = 1.04
 
 LIGHT_DISTANCE = 8.0
 """Distance of the lights from the middle of the scene, in its extents [1]."""
+
+GLASS = (0.86, 0.91, 0.95, 0.2)
+"""What vessels look like in a scene with liquids: one sees the level in them."""
+
+DARKER_WHEN_WET = 0.45
+"""Part of its brightness that a thing full of liquid has lost [1]."""
 
 VIEW_ANGLE = 40.0
 """Vertical field of view [degree]."""
@@ -62,7 +70,8 @@ class Stage:
             for i, name in enumerate(names)
             if log.things[i].shape.geoms
         ]
-        self._opacity: FloatArray = self.model.geom_rgba[:, 3].copy()
+        self._droplets = Droplets(log)
+        self._colours: FloatArray = self.model.geom_rgba.copy()
 
     def visible(self, tick: int) -> BoolArray:
         """Return which things are seen at ``tick``, shape (n,)."""
@@ -75,15 +84,26 @@ class Stage:
             ]
         )
 
-    def show(self, tick: int) -> Any:
-        """Put every thing at its pose of ``tick`` and return the state."""
+    def liquid(self, tick: int) -> Wet | None:
+        """Return what there is of liquids to be painted at ``tick``, if anything."""
+        return self._droplets.at(tick)
+
+    def show(self, tick: int, *, vessels: bool = True) -> Any:
+        """Put every thing at its pose of ``tick`` and return the state; without ``vessels`` these are not seen."""
         seen = self.visible(tick)
+        wetness = self._droplets.held_share(tick)
         for i, puppet, body in self._puppets:
             self.data.mocap_pos[puppet] = self.log.poses[tick, i, :3]
             self.data.mocap_quat[puppet] = self.log.poses[tick, i, 3:]
             first = self.model.body_geomadr[body]
             own = slice(first, first + self.model.body_geomnum[body])
-            self.model.geom_rgba[own, 3] = self._opacity[own] if seen[i] else 0.0
+            clear = self._droplets.present and self._is_vessel(i)
+            shown = seen[i] and (vessels or not clear)
+            self.model.geom_rgba[own] = self._colours[own]
+            self.model.geom_rgba[own, :3] *= 1.0 - DARKER_WHEN_WET * wetness[i]
+            if clear:
+                self.model.geom_rgba[own] = GLASS
+            self.model.geom_rgba[own, 3] *= 1.0 if shown else 0.0
         mujoco.mj_kinematics(self.model, self.data)
         mujoco.mj_camlight(self.model, self.data)
         return self.data
@@ -123,9 +143,11 @@ class Stage:
             if thing.fixed or not thing.shape.geoms or not seen:
                 continue
             path = self.log.poses[seen, i, :3]
-            if float(np.ptp(path, axis=0).max()) > MOVED or self._appears[i]:
+            vessel = self._droplets.present and self._is_vessel(i)
+            if float(np.ptp(path, axis=0).max()) > MOVED or self._appears[i] or vessel:
                 size = min(_radius(thing), 0.15)
                 (bits if self._appears[i] else places).extend([path - size, path + size])
+        bits.extend(self._droplets.at_large(ticks))
         if not places and not bits:
             shown = [i for i, thing in enumerate(self.log.things) if thing.shape.geoms and not thing.fixed]
             path = self.log.poses[0, shown or [0], :3]
@@ -137,6 +159,11 @@ class Stage:
         ]
         return np.min(corners, axis=(0, 1)), np.max(corners, axis=(0, 1))
 
+    def _is_vessel(self, i: int) -> bool:
+        """Return whether a thing is an open container: not an egg, whose shell is its own."""
+        roles = self.log.things[i].roles
+        return "Container" in roles and "Breakable" not in roles
+
     def _chain(self, thing: Thing) -> frozenset[int]:
         chain: set[int] = set()
         whole = thing.whole
@@ -147,25 +174,25 @@ class Stage:
 
     def _add(self, spec: Any, i: int, thing: Thing) -> None:
         body = spec.worldbody.add_body(name=f"thing{i}", mocap=True)
+        look = {"rgba": self._colour(thing), "contype": 0, "conaffinity": 0, "density": 0}
+        # A shell's inertia is defined for the thinnest piece; only the picture matters here.
+        shell = {"inertia": mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL}
+        if thing.shape.profile:
+            vertices, triangles = turned_surface(thing.shape)
+            spec.add_mesh(name=f"mesh{i}", uservert=vertices.ravel(), userface=triangles.ravel(), **shell)
+            body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=f"mesh{i}", material="matt", **look)
+            return
         for k, geom in enumerate(thing.shape.geoms):
             solid = body.add_geom(
                 type=getattr(mujoco.mjtGeom, f"mjGEOM_{geom.type.upper()}"),
                 size=_drawn_size(geom),
                 pos=geom.position,
                 quat=geom.orientation,
-                rgba=self._colour(thing),
-                contype=0,
-                conaffinity=0,
-                density=0,
+                **look,
             )
             if geom.type == "mesh":
                 name = f"mesh{i}.{k}"
-                # A shell's inertia is defined for the thinnest piece; only the picture matters here.
-                spec.add_mesh(
-                    name=name,
-                    uservert=np.asarray(geom.vertices).ravel(),
-                    inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL,
-                )
+                spec.add_mesh(name=name, uservert=np.asarray(geom.vertices).ravel(), **shell)
                 solid.meshname = name
             solid.material = "ground" if geom.type == "plane" else "matt"
 
