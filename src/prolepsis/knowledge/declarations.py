@@ -12,7 +12,7 @@ from rdflib.term import Node
 
 from prolepsis.errors import KnowledgeError
 from prolepsis.knowledge.turtle import NAMESPACE, Document, local_name
-from prolepsis.knowledge.vocabulary import CERTAINTIES, ClassEntry, Default, DefaultPart, Property, Vocabulary
+from prolepsis.knowledge.vocabulary import CERTAINTIES, ClassEntry, Curve, Default, DefaultPart, Property, Vocabulary
 from prolepsis.knowledge.written import read_value
 from prolepsis.units import qudt_symbol, unit_of
 
@@ -116,6 +116,8 @@ def _class(document: Document, iri: URIRef, properties: Mapping[str, Property]) 
         parents=tuple(sorted(local_name(p) for p in own)),
         defined=any(isinstance(e, BNode) or not _foreign(e) for e in graph.objects(iri, OWL.equivalentClass)),
         defaults=tuple(sorted(_defaults(document, iri, properties), key=lambda d: d.property)),
+        curves=tuple(sorted(_curves(document, iri, properties), key=lambda c: c.property)),
+        limits=tuple(sorted(_limits(document, iri, properties), key=lambda p: p.name)),
         parts=tuple(sorted(_parts(document, iri), key=lambda p: p.kind)),
         needs_whole=tuple(sorted(local_name(w) for w in graph.objects(iri, PRO.needsWhole) if isinstance(w, URIRef))),
         alignments=tuple(sorted({str(p) for p in parents + others if _foreign(p)})),
@@ -135,6 +137,8 @@ def _joined(first: ClassEntry, second: ClassEntry) -> ClassEntry:
         parents=tuple(sorted({*first.parents, *second.parents})),
         defined=first.defined or second.defined,
         defaults=tuple(sorted((*first.defaults, *second.defaults), key=lambda d: d.property)),
+        curves=(*first.curves, *second.curves),
+        limits=(*first.limits, *second.limits),
         parts=tuple(sorted((*first.parts, *second.parts), key=lambda p: p.kind)),
         needs_whole=tuple(sorted({*first.needs_whole, *second.needs_whole})),
         alignments=tuple(sorted({*first.alignments, *second.alignments})),
@@ -154,22 +158,63 @@ def _provenance(document: Document, iri: URIRef, node: Node, what: str) -> tuple
     return source, certainty
 
 
+def _of(document: Document, iri: URIRef, node: Node, what: str, properties: Mapping[str, Property]) -> Property:
+    of = _one(document, node, PRO.of)
+    name = local_name(of) if isinstance(of, URIRef) else "nothing"
+    if name not in properties:
+        raise KnowledgeError(f"{document.where(iri)}: {what} {name} of {local_name(iri)} is of no known property")
+    return properties[name]
+
+
+def _limits(document: Document, iri: URIRef, properties: Mapping[str, Property]) -> Iterator[Property]:
+    for node in document.graph.objects(iri, PRO.limit):
+        yield replace(
+            _of(document, iri, node, "the limit", properties),
+            above=_number(document, node, PRO.above),
+            at_least=_number(document, node, PRO.atLeast),
+            at_most=_number(document, node, PRO.atMost),
+        )
+
+
+def _curves(document: Document, iri: URIRef, properties: Mapping[str, Property]) -> Iterator[Curve]:
+    for node in document.graph.objects(iri, PRO.curve):
+        entry = _of(document, iri, node, "the curve", properties)
+        over = properties.get(local_name(URIRef(str(_one(document, node, PRO.over)))))
+        what = f"the curve {entry.name}"
+        where = f"{document.where(iri)}: {what} of {local_name(iri)}"
+        if over is None:
+            raise KnowledgeError(f"{where} has no :over, the property that it depends on")
+        source, certainty = _provenance(document, iri, node, what)
+        points: list[tuple[float, float]] = []
+        for point in document.graph.objects(node, PRO.point):
+            ends = (_one(document, point, PRO.at), _one(document, point, PRO.value))
+            read = [
+                read_value(each, end, where=where)
+                for each, end in zip((over, entry), ends, strict=True)
+                if end is not None
+            ]
+            if len(read) != 2 or not isinstance(read[0], float) or not isinstance(read[1], float) or read[1] <= 0:
+                raise KnowledgeError(f"{where}: a point needs :at and a positive :value")
+            points.append((read[0], read[1]))
+        if len({a for a, _ in points}) < max(len(points), 2):
+            raise KnowledgeError(f"{where} needs two points or more, each :at another place")
+        yield Curve(
+            property=entry.name, over=over.name, points=tuple(sorted(points)), source=source, certainty=certainty
+        )
+
+
 def _defaults(document: Document, iri: URIRef, properties: Mapping[str, Property]) -> Iterator[Default]:
     for node in document.graph.objects(iri, PRO.default):
-        of = _one(document, node, PRO.of)
-        name = local_name(of) if isinstance(of, URIRef) else "nothing"
-        what = f"the default {name}"
-        if name not in properties:
-            raise KnowledgeError(f"{document.where(iri)}: {what} of {local_name(iri)} is of no known property")
+        entry = _of(document, iri, node, "the default", properties)
+        what = f"the default {entry.name}"
         source, certainty = _provenance(document, iri, node, what)
         value = _one(document, node, PRO.value)
         if value is None:
             raise KnowledgeError(f"{document.where(iri)}: {what} of {local_name(iri)} has no :value")
         where = f"{document.where(iri)}: {what} of {local_name(iri)}"
         deviation = _one(document, node, PRO.deviation)
-        entry = properties[name]
         yield Default(
-            property=name,
+            property=entry.name,
             value=read_value(entry, value, where=where),
             deviation=0.0 if deviation is None else _deviation(entry, deviation, where),
             source=source,

@@ -1,19 +1,33 @@
-"""Values that follow from others: the volume of a solid from its shape and extents."""
+"""Values that follow from a shape and its extents: the volume of its matter, and what it holds."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from pathlib import Path
+
+from prolepsis.errors import KnowledgeError
+from prolepsis.fields.turned import VESSELS, Vessel
 
 Get = Callable[[str], float | None]
 """Value of a property by name, in SI units, or None."""
+EXTENTS = ("radius", "height", "thickness", "lid")
+"""What the outline of a round vessel follows from."""
 
 
-def volume(shape: str, get: Get) -> tuple[float, str] | None:
+def volume(shape: str, get: Get, file: Callable[[], str | None] = lambda: None) -> tuple[float, str] | None:
     """Return the volume of matter [m^3] and its formula, or None if an extent is not known.
 
+    Args:
+        shape: The ontology's name of the shape.
+        get: Extents.
+        file: File of a mesh.
+
+    Raises:
+        KnowledgeError: If the file of a mesh encloses no volume.
+
     Source:
-        Elementary geometry. A bowl is a thin spherical cap, a cup a cylindrical wall on a flat bottom.
+        Elementary geometry; round vessels are turned outlines, less their holes.
     """
     length, width, height, radius = get("length"), get("width"), get("height"), get("radius")
     breadth, thickness = get("breadth"), get("thickness")
@@ -25,9 +39,36 @@ def volume(shape: str, get: Get) -> tuple[float, str] | None:
         return math.pi * radius**2 * height, "pi radius^2 height"
     if shape == "ellipsoid" and length and breadth:
         return math.pi / 6 * length * breadth**2, "pi/6 length breadth^2"
-    if shape == "cup" and radius and height and thickness and thickness < min(radius, height):
-        inner = math.pi * (radius - thickness) ** 2 * (height - thickness)
-        return math.pi * radius**2 * height - inner, "cylinder minus cavity"
-    if shape == "bowl" and radius and height and thickness:
-        return math.pi * (radius**2 + height**2) * thickness, "spherical cap times thickness"
+    if shape == "openBox" and length and width and height and thickness:
+        inner = (length - 2 * thickness) * (width - 2 * thickness) * (height - thickness)
+        return length * width * height - inner, "length * width * height minus cavity"
+    vessel = _vessel(shape, get)
+    if vessel is not None and thickness:
+        bottom, side = get("bottomHoleRadius") or 0.0, get("holeRadius") or 0.0
+        holes = math.pi * (bottom**2 * vessel.inner[0][1] + side**2 * thickness * (get("holeCount") or 1.0))
+        return vessel.volume - holes, "volume of its turned outline"
+    path = file() if shape == "mesh" else None
+    if path is not None:
+        from prolepsis.fields.meshes import enclosed_volume, read_surface
+
+        return enclosed_volume(read_surface(Path(path), get("scale") or 1.0)), "volume of its mesh"
     return None
+
+
+def capacity(shape: str, get: Get) -> float | None:
+    """Return what a vessel holds up to the brim [m^3], its holes stopped, or None if an extent is not known."""
+    length, width, height, thickness = get("length"), get("width"), get("height"), get("thickness")
+    if shape == "openBox" and length and width and height and thickness:
+        return (length - 2 * thickness) * (width - 2 * thickness) * (height - thickness)
+    vessel = _vessel(shape, get)
+    return None if vessel is None else vessel.capacity
+
+
+def _vessel(shape: str, get: Get) -> Vessel | None:
+    extents = {name: value for name in EXTENTS if (value := get(name)) is not None}
+    if shape not in VESSELS or not {*EXTENTS[:3]} <= {*extents}:
+        return None
+    try:
+        return VESSELS[shape](extents)
+    except KnowledgeError:
+        return None  # Refused, with its name, when its shape is built.

@@ -9,9 +9,8 @@ from pathlib import Path
 from prolepsis.domain import Domain
 from prolepsis.errors import KnowledgeError, UnknownNameError
 from prolepsis.knowledge.declarations import read_vocabulary
-from prolepsis.knowledge.derived import volume
+from prolepsis.knowledge.deriving import derive, masses_of
 from prolepsis.knowledge.describing import describe
-from prolepsis.knowledge.masses import Masses
 from prolepsis.knowledge.reasoning import Types, infer_types
 from prolepsis.knowledge.situation import INVERSES, Situation, Statement, read_situation
 from prolepsis.knowledge.spelling import refuse_unknown_names
@@ -19,9 +18,6 @@ from prolepsis.knowledge.turtle import Document, documents_of
 from prolepsis.knowledge.values import Known
 from prolepsis.knowledge.vocabulary import Default, Vocabulary
 from prolepsis.knowledge.written import read_value
-
-OF_THE_WALL = ("friction", "breakingForce", "plateStiffness", "shellThickness")
-"""A whole with one part that encloses the others has these of that part: one touches and breaks an egg by its shell."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -59,8 +55,23 @@ class KnowledgeBase:
         types = infer_types(documents, vocabulary, situation, check=check)
         base = cls(vocabulary=vocabulary, situation=situation, types=types, documents=documents, overrides={})
         if check:
-            base._refuse_impossible_masses()
+            base._refuse_impossible_values()
         return base
+
+    def _refuse_impossible_values(self) -> None:
+        """Refuse masses that contradict each other, and values out of the limits of a class."""
+
+        def where(name: str, property_name: str = "mass") -> str:
+            places = [s.where for s in self.situation.statements if (s.subject, s.property) == (name, property_name)]
+            return places[0] if places else self.situation.places[name]
+
+        masses_of(self).refuse(where)
+        for name in self.individuals:
+            for limit in (limit for c in self.types.classes[name] for limit in self.vocabulary.classes[c].limits):
+                value = self.number(name, limit.name)
+                if value is not None and not limit.admits(value):
+                    allowed = f"must be {limit.bounds} for a {self.kind(name)}"
+                    raise KnowledgeError(f"{where(name, limit.name)}: {name}: {limit.name} = {value:g}: {allowed}")
 
     @property
     def individuals(self) -> tuple[str, ...]:
@@ -115,7 +126,7 @@ class KnowledgeBase:
         self._require(name)
         if property_name not in self.vocabulary.properties:
             raise UnknownNameError.of("property", property_name, self.vocabulary.properties)
-        known = self._find(name, property_name)
+        known = self.find(name, property_name)
         if known is None:
             raise UnknownNameError.of(f"value {property_name} of {name}", property_name, self.quantities(name))
         return known
@@ -129,7 +140,7 @@ class KnowledgeBase:
         """
         self._require(name)
         entry = self.vocabulary.properties.get(property_name)
-        if entry is not None and default is not None and self._find(name, property_name) is None:
+        if entry is not None and default is not None and self.find(name, property_name) is None:
             return default
         known = self.value(name, property_name)
         if not isinstance(known.value, float):
@@ -140,9 +151,7 @@ class KnowledgeBase:
         """Return all that is known of ``name``, by property."""
         self._require(name)
         found = {
-            p: self._find(name, p)
-            for p, e in self.vocabulary.properties.items()
-            if e.kind != "relation" or p == "shape"
+            p: self.find(name, p) for p, e in self.vocabulary.properties.items() if e.kind != "relation" or p == "shape"
         }
         return {p: known for p, known in found.items() if known is not None}
 
@@ -176,7 +185,7 @@ class KnowledgeBase:
         situation = replace(self.situation, statements=tuple(statements))
         types = infer_types(self.documents, self.vocabulary, situation, check=True)
         changed = replace(self, situation=situation, types=types, overrides=overrides)
-        changed._refuse_impossible_masses()
+        changed._refuse_impossible_values()
         return changed
 
     def domain(self) -> Domain:
@@ -205,69 +214,41 @@ class KnowledgeBase:
         if name not in self.situation.classes:
             raise UnknownNameError.of("individual", name, self.individuals, where)
 
-    def _find(self, name: str, property_name: str) -> Known | None:
+    def find(self, name: str, property_name: str) -> Known | None:
+        """Return the value of a property, or None if nothing is known of it."""
         entry = self.vocabulary.properties[property_name]
         for s in self.situation.statements:
             if s.subject == name and s.property == property_name:
                 origin = "override" if (name, property_name) in self.overrides else "asserted"
                 return Known(value=s.value, unit=entry.si_unit, origin=origin, source=s.where)
-        return self._derive(name, property_name) or self._default(name, property_name)
+        return derive(self, name, property_name) or self.default(name, property_name)
 
-    def _derive(self, name: str, property_name: str) -> Known | None:
-        if property_name in OF_THE_WALL:
-            walls = [part for part in self.situation.parts.get(name, ()) if "Enclosure" in self.types.classes[part]]
-            known = self._find(walls[0], property_name) if len(walls) == 1 else None
-            if known is None:
-                return None
-            return replace(known, origin="derived", source=f"that of its wall {walls[0]} ({known.source})")
-        if property_name != "mass":
-            return None
-        masses = self._masses()
-        share = masses.share(name)
-        if share is not None:
-            return _derived(share, f"its share of the mass of {self.situation.wholes[name]}")
-        parts = self.situation.parts.get(name, ())
-        known = [self._find(part, "mass") for part in parts]
-        if parts and all(known):
-            return _derived(sum(float(k.value) for k in known if k is not None), f"sum of {', '.join(parts)}")
-        return self._mass_of_volume(name)
+    def subjects(self, relation: str, name: str) -> tuple[str, ...]:
+        """Return the individuals of which an asserted relation to ``name`` is told, sorted."""
+        statements = self.situation.statements
+        return tuple(sorted({s.subject for s in statements if s.property == relation and s.value == name}))
 
-    def _mass_of_volume(self, name: str) -> Known | None:
-        shape, default = self._find(name, "shape"), self._default(name, "mass")
-        found = volume(str(shape.value), lambda p: self._number(name, p)) if shape and not default else None
-        density = self._number(name, "density")
-        return _derived(density * found[0], f"density * {found[1]}") if found and density else None
-
-    def _masses(self) -> Masses:
-        def usual(name: str) -> float | None:
-            known = self._default(name, "mass") or self._mass_of_volume(name)
-            return None if known is None else float(known.value)
-
-        return Masses(
-            parts=self.situation.parts,
-            wholes=self.situation.wholes,
-            stated=lambda name: self._stated(name, "mass"),
-            usual=usual,
-        )
-
-    def _refuse_impossible_masses(self) -> None:
-        def where(name: str) -> str:
-            places = [s.where for s in self.situation.statements if (s.subject, s.property) == (name, "mass")]
-            return places[0] if places else self.situation.places[name]
-
-        self._masses().refuse(where)
-
-    def _stated(self, name: str, property_name: str) -> float | None:
+    def stated(self, name: str, property_name: str) -> float | None:
+        """Return the number that the situation states [SI], or None."""
         for s in self.situation.statements:
             if s.subject == name and s.property == property_name and isinstance(s.value, float):
                 return s.value
         return None
 
-    def _number(self, name: str, property_name: str) -> float | None:
-        known = self._find(name, property_name)
+    def number(self, name: str, property_name: str) -> float | None:
+        """Return what is known as a number in SI units, the truth as 1, or None."""
+        known = self.find(name, property_name)
+        if known is not None and known.value == "true":
+            return 1.0
         return known.value if known is not None and isinstance(known.value, float) else None
 
-    def _default(self, name: str, property_name: str) -> Known | None:
+    def text(self, name: str, property_name: str) -> str | None:
+        """Return what is known as a text, or None."""
+        known = self.find(name, property_name)
+        return known.value if known is not None and isinstance(known.value, str) else None
+
+    def default(self, name: str, property_name: str) -> Known | None:
+        """Return the default of the most specific class of ``name``, or None."""
         found = self.default_of(self.types.classes[name], property_name)
         if found is None:
             return None
@@ -297,7 +278,3 @@ class KnowledgeBase:
                 f"state it for the individual, or for a common subclass"
             )
         return best[0], candidates[best[0]]
-
-
-def _derived(mass: float, source: str) -> Known:
-    return Known(value=mass, unit="kg", origin="derived", source=source)

@@ -149,6 +149,8 @@ def _statements(document: Document, vocabulary: Vocabulary, classes: Mapping[str
             entry = vocabulary.properties[name]
             where = document.where(iri)
             value = read_value(entry, node, where=f"{where}: {subject}")
+            if name == "file":
+                value = str(document.path.parent / str(value))
             if entry.kind == "relation" and value not in classes:
                 known = [n for n in classes if "ShapeKind" not in classes[n]]
                 raise UnknownNameError.of("individual", str(value), known, where=f"{where}: {subject} {name}")

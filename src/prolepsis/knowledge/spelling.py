@@ -76,4 +76,8 @@ def refuse_unknown_names(documents: tuple[Document, ...], vocabulary: Vocabulary
 def _role(predicate: Node) -> str:
     if predicate in _CLASS_PLACES:
         return "class"
-    return "property" if predicate in (OWL.onProperty, RDFS.subPropertyOf, OWL.inverseOf, PRO.of) else "individual"
+    return (
+        "property"
+        if predicate in (OWL.onProperty, RDFS.subPropertyOf, OWL.inverseOf, PRO.of, PRO.over)
+        else "individual"
+    )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from prolepsis.units import si_symbol, unit_of
+from prolepsis.units import si_symbol, to_si, unit_of
 
 CERTAINTIES = {
     "T": "seen in a text",
@@ -59,6 +59,14 @@ class Property:
         parts += [f"at most {self.at_most:g}"] if self.at_most is not None else []
         return " and ".join(parts) + (f" {self.unit}" if parts and self.unit not in ("", "1") else "")
 
+    def admits(self, value: float) -> bool:
+        """Return whether a value in SI units is within the bounds."""
+        return not (
+            (self.above is not None and not value > to_si(self.above, self.unit))
+            or (self.at_least is not None and not value >= to_si(self.at_least, self.unit))
+            or (self.at_most is not None and not value <= to_si(self.at_most, self.unit))
+        )
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Default:
@@ -74,6 +82,31 @@ class Default:
     """Where it comes from."""
     certainty: str
     """One of ``CERTAINTIES``."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Curve:
+    """A default that depends on another property; between two points the logarithm of the value changes evenly."""
+
+    property: str
+    """Name of the property whose value it gives."""
+    over: str
+    """Name of the property that it depends on."""
+    points: tuple[tuple[float, float], ...]
+    """(where, value) in SI units, where ascending; at least two, all values positive."""
+    source: str
+    """Where it comes from."""
+    certainty: str
+    """One of ``CERTAINTIES``."""
+
+    def at(self, where: float) -> float | None:
+        """Return the value at ``where``, or None if that is outside all points."""
+        if not self.points[0][0] <= where <= self.points[-1][0]:
+            return None
+        for (a, low), (b, high) in zip(self.points[:-1], self.points[1:], strict=True):
+            if where <= b:
+                return low * (high / low) ** ((where - a) / (b - a))
+        return None
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -104,6 +137,10 @@ class ClassEntry:
     """True if the reasoner decides who belongs to it (``owl:equivalentClass``)."""
     defaults: tuple[Default, ...] = ()
     """Class defaults."""
+    curves: tuple[Curve, ...] = ()
+    """Class defaults that depend on another property."""
+    limits: tuple[Property, ...] = ()
+    """Properties with narrower bounds for the individuals of the class."""
     parts: tuple[DefaultPart, ...] = ()
     """Default parts."""
     needs_whole: tuple[str, ...] = ()

@@ -47,14 +47,8 @@ def read_value(entry: Property, node: Node | str | float, *, where: str) -> floa
 
 
 def _bounded(entry: Property, value: float, text: str, where: str) -> float:
-    def si(bound: float) -> float:
-        return to_si(bound, entry.unit)
-
     finite = value - value == 0.0
-    low = entry.above is not None and not value > si(entry.above)
-    low = low or (entry.at_least is not None and not value >= si(entry.at_least))
-    high = entry.at_most is not None and not value <= si(entry.at_most)
-    if not finite or low or high:
+    if not finite or not entry.admits(value):
         allowed = f" and {entry.bounds}" if entry.bounds else ""
         raise KnowledgeError(f"{where}: {entry.name} = {text}: must be finite{allowed}")
     return value

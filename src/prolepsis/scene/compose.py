@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -15,6 +16,8 @@ from prolepsis.scene.placing import resting_height
 from prolepsis.scene.scene import Scene
 from prolepsis.scene.world import HIDDEN_ROLES
 from prolepsis.shapes import SHAPES
+from prolepsis.shapes.holes import refuse_holes
+from prolepsis.shapes.mesh import mesh
 from prolepsis.things import Quaternion, Shape, Thing
 
 ROLES = (
@@ -48,7 +51,7 @@ ATTRIBUTES = {"wet": "WetThing", "dirty": "DirtyThing", "broken": "BrokenThing"}
 """Attributes that controllers may change, and the class of what has them at the start."""
 SLENDEREST = 0.5
 """Least breadth over length of an egg that is cut into pieces [1]."""
-GRIPPER_SHAPE = "parallelGripper"
+GRIPPER_SHAPE, MESH_SHAPE = "parallelGripper", "mesh"
 STUFFS = {"EggYolk": "yolk", "EggWhite": "white"}
 """Stuffs that are modelled as balls inside an egg, and their sort."""
 
@@ -149,8 +152,14 @@ def _thing(kb: KnowledgeBase, name: str) -> Thing:
 
 def _built(kb: KnowledgeBase, name: str, shape: str, quantities: dict[str, float]) -> Shape:
     """Return the shape of a whole in its own frame."""
+    if shape == MESH_SHAPE:
+        file = kb.text(name, "file")
+        if file is None:
+            raise KnowledgeError(f"{name} ({kb.kind(name)}) is a mesh but has no file")
+        refuse_holes(quantities, "a mesh")
+        return mesh(Path(file), quantities.get("scale", 1.0))
     if shape not in SHAPES:
-        raise KnowledgeError(f"{name}: shape {shape} cannot be built; known: {', '.join(SHAPES)}")
+        raise KnowledgeError(f"{name}: shape {shape} cannot be built; known: {', '.join((*SHAPES, MESH_SHAPE))}")
     family = "table" if kb.is_a(name, "Table") and shape == "box" else shape
     try:
         return SHAPES[family](quantities)
