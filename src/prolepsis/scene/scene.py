@@ -6,7 +6,21 @@ from dataclasses import dataclass
 
 from prolepsis.domain import Domain
 from prolepsis.errors import UnknownNameError
-from prolepsis.things import Thing, Triple
+from prolepsis.things import FloatArray, Thing, Triple
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class Pool:
+    """Where the particles of one liquid are at the start."""
+
+    stuff: str
+    """Name of the liquid individual, ``liq1``."""
+    position: FloatArray
+    """World frame [m], shape (n, 3)."""
+    spacing: float
+    """Distance of neighbours at rest [m]; all pools of a scene have the same."""
+    holder: str | None = None
+    """Name of the thing that has absorbed it, if any."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -15,6 +29,8 @@ class Scene:
 
     things: tuple[Thing, ...]
     """Wholes, parts, pieces and blobs."""
+    pools: tuple[Pool, ...] = ()
+    """The liquids that flow."""
     domain: Domain = Domain()
     """What is known of the individuals."""
     gravity: Triple = (0.0, 0.0, -9.81)
