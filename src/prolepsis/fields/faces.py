@@ -159,9 +159,7 @@ def _hull(x: float, y: float, z: float, numbers: FloatArray, span: IntArray, fou
 
 
 @njit(cache=True)
-def _profile(
-    x: float, y: float, z: float, numbers: FloatArray, span: IntArray, reach: float, found: FloatArray
-) -> int:
+def _profile(x: float, y: float, z: float, numbers: FloatArray, span: IntArray, reach: float, found: FloatArray) -> int:
     """Return the sides of a turned outline that the point is in front of, or the nearest if there is none."""
     r = math.sqrt(x * x + y * y)
     cx, cy = (x / r, y / r) if r > 1e-12 else (1.0, 0.0)
@@ -213,9 +211,7 @@ def _profile(
 
 
 @njit(cache=True)
-def _drilled(
-    x: float, y: float, z: float, numbers: FloatArray, span: IntArray, found: FloatArray, count: int
-) -> int:
+def _drilled(x: float, y: float, z: float, numbers: FloatArray, span: IntArray, found: FloatArray, count: int) -> int:
     """Return the faces as they are where a hole is drilled through them."""
     for h in range(span[2], span[2] + span[3], 7):
         ox, oy, oz = x - numbers[h], y - numbers[h + 1], z - numbers[h + 2]

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import lru_cache
+from typing import cast
 
 import numpy as np
 from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
@@ -25,7 +27,9 @@ def grid_of(surface: Surface) -> FloatArray:
     """Return origin (3), step, shape (3) and values (nx ny nz), one after the other, as ``faces.Solids`` has them."""
     vertices = np.array(surface.vertices, dtype=np.float64)
     triangles = np.array(surface.triangles, dtype=np.int64)
-    return kept_array("grid", (vertices, triangles, np.array([NODE_COUNT, BAND, MARGIN])), lambda: _grid(vertices, triangles))
+    return kept_array(
+        "grid", (vertices, triangles, np.array([NODE_COUNT, BAND, MARGIN])), lambda: _grid(vertices, triangles)
+    )
 
 
 def _grid(vertices: FloatArray, triangles: IntArray) -> FloatArray:
@@ -37,7 +41,8 @@ def _grid(vertices: FloatArray, triangles: IntArray) -> FloatArray:
     inside = np.zeros(tuple(shape.tolist()), dtype=np.bool_)
     near = np.full(inside.shape, np.inf)
     _scan(vertices, triangles, origin, step, near, inside)
-    far = np.where(inside, distance_transform_edt(inside), distance_transform_edt(~inside)) * step
+    transform = cast("Callable[[BoolArray], FloatArray]", distance_transform_edt)
+    far = np.where(inside, transform(inside), transform(~inside)) * step
     distance = np.where(near <= BAND * step, near, np.maximum(far, BAND * step))
     signed = np.where(inside, -distance, distance)
     return np.concatenate([origin, [step], shape.astype(np.float64), signed.ravel()])
@@ -96,4 +101,5 @@ def _to_triangle(p: FloatArray, a: FloatArray, b: FloatArray, c: FloatArray) -> 
 def _to_edge(p: FloatArray, a: FloatArray, b: FloatArray) -> float:
     ab = b - a
     t = np.dot(p - a, ab) / max(np.dot(ab, ab), 1e-300)
-    return np.linalg.norm(p - a - min(max(t, 0.0), 1.0) * ab)
+    apart = p - a - min(max(t, 0.0), 1.0) * ab
+    return math.sqrt(np.dot(apart, apart))

@@ -25,8 +25,8 @@ from prolepsis.fields.faces import (
 )
 from prolepsis.fields.grid import grid_of
 from prolepsis.fields.hull import hull_planes
-from prolepsis.fields.solids import Solid, solid_of
-from prolepsis.things import FloatArray, Shape
+from prolepsis.fields.solids import Solid, matrix, solid_of
+from prolepsis.things import FloatArray, IntArray, Shape
 
 PRIMITIVES = {
     "plane": PLANE,
@@ -104,3 +104,30 @@ def _distances(solids: Solids, points: FloatArray) -> FloatArray:
             if count > 0:
                 result[i] = min(result[i], found[0, 0])
     return result
+
+
+def shifted(solids: Solids, pose: FloatArray) -> Solids:
+    """Return solids as seen in a frame in which theirs has the given pose, shape (7,)."""
+    turn = matrix(pose[3:])
+    frame = solids.frame.copy()
+    frame[:, :3] = solids.frame[:, :3] @ turn.T + pose[:3]
+    frame[:, 3:] = (turn @ solids.frame[:, 3:].reshape(-1, 3, 3)).reshape(-1, 9)
+    return solids._replace(frame=frame)
+
+
+def union_of(parts: Sequence[Solids]) -> Solids:
+    """Return all solids of several, in their order."""
+    spans: list[IntArray] = []
+    end = 0
+    for part in parts:
+        spans.append(part.span + np.array([end, 0, end, 0]))
+        end += len(part.numbers)
+    if not parts:
+        return _joined([])
+    return Solids(
+        kind=np.concatenate([part.kind for part in parts]),
+        frame=np.concatenate([part.frame for part in parts]),
+        size=np.concatenate([part.size for part in parts]),
+        span=np.concatenate(spans),
+        numbers=np.concatenate([part.numbers for part in parts]),
+    )

@@ -1,0 +1,115 @@
+"""The rigid bodies of a running simulation as walls: their solids, where they are, and how they have moved."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import numpy as np
+
+from prolepsis.engine import mujoco
+from prolepsis.fields.faces import Solids
+from prolepsis.fields.signed_distance import shifted, solids_as_arrays, union_of
+from prolepsis.fields.solids import Solid, bounded, matrix
+from prolepsis.liquid.walls import Bodies
+from prolepsis.state import State
+from prolepsis.things import FloatArray, IntArray, Shape
+
+
+class WallBodies:
+    """What the particles of a run may touch."""
+
+    def __init__(self, state: State) -> None:
+        """Take the bodies as they are now for where the first step begins."""
+        self._version = -1
+        self.solids: Solids
+        """The walls of all bodies."""
+        self.ids: IntArray
+        """Their MuJoCo bodies, shape (B,)."""
+        self.refresh(state)
+
+    def refresh(self, state: State) -> bool:
+        """Look the bodies up in a model that is new, and return whether it was."""
+        if self._version == state.version:
+            return False
+        self._version = state.version
+        things = state.world.scene.things
+        ids: list[int] = []
+        first = [0]
+        parts: list[Solids] = []
+        balls: list[FloatArray] = []
+        for body, carrier in enumerate(state.body_thing):
+            if carrier < 0:
+                continue
+            # The own shape of an intact whole stands for its pieces.
+            whole = state.world.is_body(things[carrier])
+            among = [int(carrier)] if whole else np.flatnonzero(state.carrier == carrier).tolist()
+            carried = [i for i in among if things[i].shape.geoms]
+            made = [shifted(solids_as_arrays(things[i].shape), state.offsets[i]) for i in carried]
+            if not made:
+                continue
+            ids.append(body)
+            parts += made
+            first.append(first[-1] + sum(len(solids.kind) for solids in made))
+            balls.append(_ball([(things[i].shape, state.offsets[i]) for i in carried]))
+        self.solids = union_of(parts)
+        self.ids = np.array(ids, dtype=np.int64)
+        self._first = np.array(first, dtype=np.int64)
+        self._balls = np.array(balls).reshape(-1, 4)
+        self._position, self._rotation = self._poses(state)
+        return True
+
+    def _poses(self, state: State) -> tuple[FloatArray, FloatArray]:
+        # After a step these are a step old.
+        mujoco.mj_kinematics(state.model, state.data)
+        position: FloatArray = state.data.xpos[self.ids].copy()
+        rotation: FloatArray = state.data.xmat[self.ids].copy()
+        return position, rotation
+
+    def moved(self, state: State, dt: float) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        """Return position, rotation, velocity and spin in the ``dt`` [s] since the last step began, and begin the next.
+
+        The position and rotation are those when it began.
+        """
+        position, rotation = self._poses(state)
+        old_position, old_rotation = self._position, self._rotation
+        self._position, self._rotation = position, rotation
+        velocity = (position - old_position) / dt
+        turn = np.einsum("bij,bkj->bik", rotation.reshape(-1, 3, 3), old_rotation.reshape(-1, 3, 3))
+        # Of the small turn between two steps the skew part is the axis times the sine of the angle.
+        skew = np.stack(
+            [turn[:, 2, 1] - turn[:, 1, 2], turn[:, 0, 2] - turn[:, 2, 0], turn[:, 1, 0] - turn[:, 0, 1]], axis=1
+        )
+        return old_position, old_rotation, velocity, skew / (2 * dt)
+
+    def at(self, position: FloatArray, rotation: FloatArray, velocity: FloatArray, spin: FloatArray) -> Bodies:
+        """Return the bodies at given poses and velocities."""
+        return Bodies(
+            first=self._first,
+            reach=self._balls,
+            rotation=np.ascontiguousarray(rotation),
+            position=np.ascontiguousarray(position),
+            velocity=np.ascontiguousarray(velocity),
+            spin=np.ascontiguousarray(spin),
+        )
+
+    def now(self) -> tuple[FloatArray, FloatArray]:
+        """Return position and rotation where the last step ended."""
+        return self._position, self._rotation
+
+    def way(self, state: State) -> float:
+        """Return how far the fastest body has gone since the last step [m]."""
+        return float(np.linalg.norm(state.data.xpos[self.ids] - self._position, axis=1).max(initial=0.0))
+
+
+def _ball(parts: list[tuple[Shape, FloatArray]]) -> FloatArray:
+    """Return centre and radius of a ball around shapes at their poses in a body, shape (4,)."""
+    if any(geom.type == "plane" for shape, _ in parts for geom in shape.geoms):
+        return np.array([0.0, 0.0, 0.0, 1e6])
+    corners: list[FloatArray] = []
+    for shape, pose in parts:
+        for low, high in map(Solid.bounds, bounded(shape)):
+            box = np.array(list(product(*zip(low, high, strict=True))))
+            corners.append(box @ matrix(pose[3:]).T + pose[:3])
+    points = np.concatenate(corners)
+    centre = (points.min(axis=0) + points.max(axis=0)) / 2
+    return np.array([*centre, np.linalg.norm(points - centre, axis=1).max()])

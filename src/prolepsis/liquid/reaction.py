@@ -1,0 +1,115 @@
+"""What the liquid does to the walls: impulses and their moments, face by face; and adhesion to them."""
+
+from __future__ import annotations
+
+from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
+
+from prolepsis.liquid.walls import Contacts, read_table
+from prolepsis.things import FloatArray
+
+
+@njit(cache=True)
+def add_adhesion(
+    contacts: Contacts,
+    strength: FloatArray,
+    wetting: FloatArray,
+    pull_table: FloatArray,
+    spacing: float,
+    force: FloatArray,
+) -> None:
+    """Add the attraction of the walls to ``force`` [N], shape (n, 3).
+
+    Args:
+        contacts: What each particle sees of the walls.
+        strength: Attraction between neighbours [N], shape (n,).
+        wetting: Cosine of the contact angle [1], shape (n,).
+        pull_table: Pull of a wall of the liquid's own kind over the distance.
+        spacing: [m].
+        force: [N], shape (n, 3).
+    """
+    for i in range(len(force)):
+        for f in range(contacts.seen[i]):
+            pull = read_table(pull_table, contacts.distance[i, f] / spacing)
+            # Work of adhesion over work of cohesion (Young and Dupre).
+            pull *= 0.5 * (1.0 + wetting[i]) * strength[i] * contacts.weight[i, f]
+            for c in range(3):
+                force[i, c] -= pull * contacts.normal[i, f, c]
+
+
+@njit(cache=True)
+def add_drag(
+    contacts: Contacts, velocity: FloatArray, slip: FloatArray, position: FloatArray, bodies: FloatArray
+) -> None:
+    """Add to the bodies what viscosity does to the walls; ``bodies`` as in ``add_pressure``."""
+    for i in range(len(velocity)):
+        for f in range(contacts.seen[i]):
+            normal, wall = contacts.normal[i, f], contacts.velocity[i, f]
+            x, y, z = velocity[i, 0] - wall[0], velocity[i, 1] - wall[1], velocity[i, 2] - wall[2]
+            into = x * normal[0] + y * normal[1] + z * normal[2]
+            k = slip[i, f]
+            _add(
+                bodies[contacts.body[i, f]],
+                position[i],
+                normal,
+                contacts.distance[i, f],
+                k * (x - into * normal[0]),
+                k * (y - into * normal[1]),
+                k * (z - into * normal[2]),
+            )
+
+
+@njit(cache=True)
+def add_pressure(
+    contacts: Contacts,
+    impulse: FloatArray,
+    push: FloatArray,
+    strength: FloatArray,
+    wetting: FloatArray,
+    pull_table: FloatArray,
+    spacing: float,
+    dt: float,
+    position: FloatArray,
+    bodies: FloatArray,
+) -> None:
+    """Add to the bodies what pressure, contact and adhesion do to the walls.
+
+    Args:
+        contacts: What each particle sees of the walls.
+        impulse: Pressure impulses, shape (n,).
+        push: Impulses of the walls' surfaces on the particles [N s], shape (n, SEEN).
+        strength: Attraction between neighbours [N], shape (n,).
+        wetting: Cosine of the contact angle [1], shape (n,).
+        pull_table: Pull of a wall over the distance.
+        spacing: [m].
+        dt: [s].
+        position: [m], shape (n, 3).
+        bodies: Impulse [N s] and its moment about the world's origin [N m s], shape (B, 6).
+    """
+    for i in range(len(impulse)):
+        for f in range(contacts.seen[i]):
+            pull = read_table(pull_table, contacts.distance[i, f] / spacing)
+            pull *= 0.5 * (1.0 + wetting[i]) * strength[i] * contacts.weight[i, f] * dt
+            size = impulse[i] * contacts.slope[i, f] - push[i, f] + pull
+            normal = contacts.normal[i, f]
+            _add(
+                bodies[contacts.body[i, f]],
+                position[i],
+                normal,
+                contacts.distance[i, f],
+                size * normal[0],
+                size * normal[1],
+                size * normal[2],
+            )
+
+
+@njit(cache=True, inline="always")
+def _add(
+    body: FloatArray, place: FloatArray, normal: FloatArray, distance: float, x: float, y: float, z: float
+) -> None:
+    px, py, pz = place[0] - distance * normal[0], place[1] - distance * normal[1], place[2] - distance * normal[2]
+    body[0] += x
+    body[1] += y
+    body[2] += z
+    body[3] += py * z - pz * y
+    body[4] += pz * x - px * z
+    body[5] += px * y - py * x

@@ -1,0 +1,170 @@
+"""One step of the liquid: neighbours, walls, attraction, viscosity, pressure, motion, and what the walls get back."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from prolepsis.fields.faces import Solids
+from prolepsis.liquid.kernel import SUPPORT, Indices, Singles, pair_table, wall_tables
+from prolepsis.liquid.neighbours import cell_order, find_neighbours
+from prolepsis.liquid.particles import ParticleState
+from prolepsis.liquid.pressure import solve_pressure
+from prolepsis.liquid.reaction import add_adhesion, add_drag, add_pressure
+from prolepsis.liquid.surface import complete_density
+from prolepsis.liquid.viscosity import solve_viscosity
+from prolepsis.liquid.walls import SEEN, Bodies, empty_contacts, find_walls, keep_outside
+from prolepsis.things import FloatArray, IntArray
+
+COURANT = 0.4
+"""Share of a spacing that the fastest particle may go in one step [1]."""
+LONGEST, SHORTEST = 4.0e-3, 1.0e-4
+"""Longest and shortest step [s]."""
+MOST_NEIGHBOURS = 80
+"""Room for neighbours per particle, doubled when it does not suffice."""
+PRESSURE_TOLERANCE = 1.0e-3
+"""Mean compression that a step may leave [1]."""
+PRESSURE_SWEEPS = (2, 40)
+"""Least and greatest number of sweeps of the pressure solver."""
+VISCOUS_TOLERANCE = 1.0e-3
+"""Residual over right-hand side at which the viscous solver ends [1]."""
+VISCOUS_ITERATIONS = 100
+"""Greatest number of iterations of the viscous solver."""
+
+
+@dataclass(kw_only=True, slots=True)
+class Effort:
+    """What the steps of a run took."""
+
+    steps: int = 0
+    """Number of steps."""
+    sweeps: int = 0
+    """Sweeps of the pressure solver."""
+    iterations: int = 0
+    """Iterations of the viscous solver."""
+    error: float = 0.0
+    """Sum over steps of the mean compression that was left [1]."""
+    seconds: dict[str, float] = field(default_factory=dict[str, float])
+    """Wall time of each part [s]."""
+
+
+class Liquid:
+    """The solver for all free particles of a running simulation."""
+
+    def __init__(self, particles: ParticleState, gravity: tuple[float, float, float]) -> None:
+        """Take over the particles, under a gravitational acceleration [m/s^2]."""
+        self.particles = particles
+        self.effort = Effort()
+        self._gravity = np.array(gravity)
+        self._tables = wall_tables()
+        count = len(particles.mass)
+        self._impulse = np.zeros(count)
+        self._viscous = np.zeros((count, 3))
+        self._last = 1.0e-3
+        self._room = 0
+        self._grow(MOST_NEIGHBOURS * count)
+        self._contacts = empty_contacts(count)
+
+    def _grow(self, room: int) -> None:
+        self._room = room
+        self._other: Indices = np.zeros(room, dtype=np.int32)
+        self._gradient: Singles = np.zeros((room, 3), dtype=np.float32)
+        self._drag: Singles = np.zeros(room, dtype=np.float32)
+
+    def next_step(self) -> float:
+        """Return the longest step that the fastest free particle allows [s]."""
+        p = self.particles
+        free = p.free
+        if not free.any():
+            return LONGEST
+        v = p.velocity[free]
+        fastest = float(np.sqrt(np.einsum("ij,ij->i", v, v).max()))
+        fall = float(np.linalg.norm(self._gravity)) * LONGEST
+        return float(np.clip(COURANT * p.spacing / max(fastest + fall, 1e-9), SHORTEST, LONGEST))
+
+    def step(self, dt: float, solids: Solids, bodies: Bodies, after: Bodies) -> FloatArray:
+        """Move the free particles on by ``dt`` [s].
+
+        Args:
+            dt: Length of the step [s].
+            solids: The walls.
+            bodies: The bodies that they belong to when the step begins, with their mean velocity in it.
+            after: The same when the step ends.
+
+        Returns:
+            Impulse [N s] on each body and its moment about the world's origin [N m s], shape (B, 6).
+        """
+        p, tables, spacing = self.particles, self._tables, self.particles.spacing
+        reaction = np.zeros((len(bodies.position), 6))
+        free: IntArray = np.flatnonzero(p.free)
+        if not len(free):
+            return reaction
+        clock = _Clock(self.effort)
+        order, cells, row, layer = cell_order(p.position[free], SUPPORT * spacing)
+        ids = free[order]
+        n = len(ids)
+        x, v, mass = p.position[ids], p.velocity[ids], p.mass[ids]
+        strength = p.tension[ids] * spacing / tables.surface_energy
+        wetting, viscosity = p.wetting[ids], p.viscosity[ids]
+        start = np.zeros(n + 1, dtype=np.int64)
+        density, steepness, force = np.zeros(n), np.zeros((n, 3)), np.zeros((n, 3))
+        side = np.zeros((n, 4))
+        contacts = self._contacts
+        find_walls(x, spacing, solids, bodies, tables.share, tables.share_slope, contacts, side)
+        clock.lap("walls")
+        while True:
+            found = find_neighbours(
+                x, cells, row, layer, spacing, side, pair_table(), start, self._other, self._gradient, self._drag,
+                density, steepness, strength, force,
+            )  # fmt: skip
+            if found >= 0:
+                break
+            self._grow(2 * self._room)
+            force[:] = 0.0
+        clock.lap("neighbours")
+        add_adhesion(contacts, strength, wetting, tables.pull, spacing, force)
+        complete_density(contacts, density, steepness, tables.share, tables.share_slope, spacing)
+        v += dt * (self._gravity + force / mass[:, None])
+        clock.lap("attraction")
+        guess = self._viscous[ids] * (dt / self._last)
+        slip = np.zeros((n, SEEN))
+        self.effort.iterations += solve_viscosity(
+            v, guess, mass, viscosity, start, self._other, self._gradient, self._drag, contacts, tables.drag, spacing,
+            dt, VISCOUS_TOLERANCE, VISCOUS_ITERATIONS, slip,
+        )  # fmt: skip
+        add_drag(contacts, v, slip, x, reaction)
+        self._viscous[ids] = guess
+        clock.lap("viscosity")
+        impulse = self._impulse[ids] * (dt / self._last)
+        push = np.zeros((n, SEEN))
+        sweeps, error = solve_pressure(
+            v, 1.0 / mass, start, self._other, self._gradient, steepness, density, contacts, impulse, push, spacing,
+            dt, PRESSURE_TOLERANCE, *PRESSURE_SWEEPS,
+        )  # fmt: skip
+        self._impulse[ids] = impulse
+        self.effort.sweeps += sweeps
+        self.effort.error += error
+        clock.lap("pressure")
+        add_pressure(contacts, impulse, push, strength, wetting, tables.pull, spacing, dt, x, reaction)
+        x += dt * v
+        keep_outside(x, v, contacts, spacing, solids, after, dt)
+        p.position[ids], p.velocity[ids] = x, v
+        self._last = dt
+        self.effort.steps += 1
+        clock.lap("walls")
+        return reaction
+
+
+class _Clock:
+    """Adds the wall time between laps to an effort."""
+
+    def __init__(self, effort: Effort) -> None:
+        self._seconds = effort.seconds
+        self._then = time.perf_counter()
+
+    def lap(self, part: str) -> None:
+        now = time.perf_counter()
+        self._seconds[part] = self._seconds.get(part, 0.0) + now - self._then
+        self._then = now

@@ -1,0 +1,148 @@
+"""Liquids that flow: the particle liquid moves on with the bodies, and pushes back on them with force and torque."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from prolepsis.errors import InvalidSimulationError
+from prolepsis.liquid.bodies import WallBodies
+from prolepsis.liquid.particles import ParticleState
+from prolepsis.liquid.solver import COURANT, LONGEST, Liquid
+from prolepsis.log import FREE, PARKED
+from prolepsis.phenomena.phenomenon import Draw, Phenomenon
+from prolepsis.scene.world import MAX_STEP
+from prolepsis.state import State
+from prolepsis.things import FloatArray
+
+TICK = MAX_STEP
+"""The liquid is looked at every tick [s]; a step of it takes several, one, or a part of one."""
+FAR = 2.0
+"""Distance from all things at the start beyond which a particle is parked [m]."""
+SETTLING_TIME = 0.24
+"""A liquid that was filled in on a lattice settles for this long before the run begins [s]."""
+SETTLING_VISCOSITY = 2.0
+"""Least viscosity with which it does so, so that it is at rest [Pa s]."""
+
+
+def attach(state: State, draw: Draw) -> Sequence[Phenomenon]:
+    """Return the controller of the liquids of a scene, if it has any."""
+    del draw
+    return [Flowing(state)] if state.world.scene.pools else []
+
+
+class Flowing(Phenomenon):
+    """All liquids of a running simulation."""
+
+    def __init__(self, state: State) -> None:
+        """Fill the pools of the scene in and let them settle."""
+        self.liquid = Liquid(_particles(state), state.world.scene.gravity)
+        state.particles = self.liquid.particles
+        things = state.world.scene.things
+        places = np.array([thing.position for thing in things if thing.shape.geoms])
+        self._centre = places.mean(axis=0) if len(places) else np.zeros(3)
+        self._far = FAR + float(np.linalg.norm(places - self._centre, axis=1).max(initial=0.0))
+        self._walls = WallBodies(state)
+        self._force = np.zeros((len(self._walls.ids), 6))
+        self._elapsed = 0
+        self._ticks = 1
+        self._settle()
+
+    def _settle(self) -> None:
+        particles = self.liquid.particles
+        viscosity = particles.viscosity
+        particles.viscosity = np.maximum(viscosity, SETTLING_VISCOSITY)
+        position, rotation = self._walls.now()
+        at_rest = self._walls.at(position, rotation, np.zeros_like(position), np.zeros_like(position))
+        passed = 0.0
+        while passed < SETTLING_TIME:
+            self.liquid.step(LONGEST, self._walls.solids, at_rest, at_rest)
+            passed += LONGEST
+        particles.viscosity = viscosity
+        particles.velocity[:] = 0.0
+
+    def tick(self, state: State) -> None:
+        """Move the liquid on, if a step of it has passed."""
+        self._elapsed += 1
+        particles = self.liquid.particles
+        if self._walls.refresh(state):
+            self._force = np.zeros((len(self._walls.ids), 6))
+        elif self._elapsed < self._ticks and self._walls.way(state) < COURANT * particles.spacing:
+            return
+        self._step(state, self._elapsed * TICK)
+        self._elapsed = 0
+        self._ticks = max(1, int(self.liquid.next_step() / TICK + 1e-9))
+        self._push(state)
+        self._park(state)
+
+    def _step(self, state: State, dt: float) -> None:
+        position, rotation, velocity, spin = self._walls.moved(state, dt)
+        end = self._walls.at(*self._walls.now(), velocity, spin)
+        count = max(1, math.ceil(dt / self.liquid.next_step() - 1e-9))
+        impulse = np.zeros_like(self._force)
+        for k in range(count):
+            begun = self._walls.at(position + velocity * (dt * k / count), rotation, velocity, spin)
+            impulse += self.liquid.step(dt / count, self._walls.solids, begun, end if k == count - 1 else begun)
+        force = impulse / dt
+        # A body that is light against the liquid would shake under a force that answers its own last motion.
+        mass = state.model.body_mass[self._walls.ids]
+        free = self.liquid.particles.mass[self.liquid.particles.holder == FREE].sum()
+        share = (mass / (mass + free))[:, None]
+        self._force += share * (force - self._force)
+
+    def _push(self, state: State) -> None:
+        state.data.xfrc_applied[:] = 0.0
+        for body, push in zip(self._walls.ids, self._force, strict=True):
+            centre = state.data.xipos[body]
+            state.data.xfrc_applied[body, :3] = push[:3]
+            state.data.xfrc_applied[body, 3:] = push[3:] - np.cross(centre, push[:3])
+
+    def _park(self, state: State) -> None:
+        particles = self.liquid.particles
+        free = np.flatnonzero(particles.free)
+        away: FloatArray = np.linalg.norm(particles.position[free] - self._centre, axis=1)
+        if not np.isfinite(away).all():
+            lost = state.world.scene.things[int(particles.stuff[free[~np.isfinite(away)][0]])].name
+            raise InvalidSimulationError(f"the simulation became unstable at {state.data.time:.3f} s at {lost}")
+        gone = free[away > self._far]
+        particles.holder[gone] = PARKED
+        particles.velocity[gone] = 0.0
+
+
+def _particles(state: State) -> ParticleState:
+    scene = state.world.scene
+    names = {thing.name: i for i, thing in enumerate(scene.things)}
+    columns: list[FloatArray] = []
+    places: list[FloatArray] = []
+    for pool in scene.pools:
+        thing, count = scene.thing(pool.stuff), len(pool.position)
+        q = thing.quantities
+        volume = q["volume"] / count
+        holder = names[pool.holder] if pool.holder is not None else FREE
+        row = [
+            names[pool.stuff],
+            holder,
+            volume * q["density"],
+            volume,
+            q["viscosity"],
+            q.get("surfaceTension", 0.0),
+            math.cos(q.get("contactAngle", math.pi / 2)),
+        ]
+        columns.append(np.tile(np.array(row), (count, 1)))
+        places.append(np.asarray(pool.position, dtype=np.float64).reshape(-1, 3))
+    table = np.concatenate(columns)
+    position = np.concatenate(places)
+    return ParticleState(
+        position=position,
+        velocity=np.zeros_like(position),
+        holder=table[:, 1].astype(np.int16),
+        stuff=table[:, 0].astype(np.int64),
+        mass=table[:, 2].copy(),
+        volume=table[:, 3].copy(),
+        viscosity=table[:, 4].copy(),
+        tension=table[:, 5].copy(),
+        wetting=table[:, 6].copy(),
+        spacing=scene.pools[0].spacing,
+    )
