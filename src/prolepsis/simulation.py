@@ -12,6 +12,7 @@ from prolepsis.engine import mujoco
 from prolepsis.errors import InvalidSimulationError, PlanError, ScenarioError
 from prolepsis.log import Action, Detachments, Log
 from prolepsis.monitors.channels import Channels, Watched, chosen_monitors
+from prolepsis.monitors.frames import Frames
 from prolepsis.monitors.recorder import Recorder
 from prolepsis.phenomena import PHENOMENA, Attach, Detachment, Draw
 from prolepsis.phenomena.breaking import Breaking
@@ -75,6 +76,7 @@ def simulate(
         if "Gripper" in thing.roles
     }
     recorder = Recorder()
+    frames = Frames()
     channels = Channels(chosen_monitors(things, monitors))
     watched = Watched(state=state, hands=hands, breaking={c.thing.name: c for c in going if isinstance(c, Breaking)})
     detachments: list[tuple[int, Detachment]] = []
@@ -107,6 +109,7 @@ def simulate(
 
         recorder.note_version(state)
         recorder.tick(state)
+        frames.tick(state, tick)
         channels.tick(watched)
 
         step = min((phenomenon.substep(state) for phenomenon in going), default=MAX_STEP)
@@ -154,12 +157,14 @@ def simulate(
         detachments=_detachment_columns(detachments),
         channels=channels.columns(),
         actions=tuple(sorted((a for a in actions if a.end > a.start), key=lambda a: (a.start, -a.end, str(a.term)))),
+        particles=frames.columns(state),
         gravity=world.scene.gravity,
     )
 
 
 def _sense(state: State, hands: dict[str, HandControl], time: float) -> Sense:
-    return Sense(time=time, hands={name: hand.sense() for name, hand in hands.items()}, place=state.place)
+    hand_senses = {name: hand.sense() for name, hand in hands.items()}
+    return Sense(time=time, hands=hand_senses, place=state.place, orientation=state.orientation)
 
 
 def _note(command: Command, tick: int, running: dict[Term, list[int]], actions: list[Action]) -> None:

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from prolepsis.engine import mujoco
+from prolepsis.liquid.particles import ParticleState
 from prolepsis.scene.world import DEBRIS_IMPEDANCE_RATIO, World, add_geom
-from prolepsis.things import FloatArray, IntArray, Triple
+from prolepsis.things import FloatArray, IntArray, Quaternion, Triple
 
 
 @dataclass(kw_only=True, slots=True)
@@ -49,6 +50,8 @@ class State:
     """MuJoCo's warnings before the model was last rebuilt."""
     attributes: dict[tuple[str, str], float] = field(default_factory=dict[tuple[str, str], float])
     """What controllers have changed: (thing, attribute) to its value."""
+    particles: ParticleState | None = None
+    """The particles of all liquids, if there are any."""
     _body_of_geom: list[int] = field(default_factory=list[int])
     _bodies_version: int = -1
 
@@ -111,16 +114,25 @@ class State:
                     pair.friction = [slippery, slippery, *pair.friction[2:]]
                     self.model.pair(pair.name).friction[:2] = slippery
 
-    def place(self, name: str) -> Triple:
-        """Return the position of a thing [m]; what is no body any more is where it was at the start."""
+    def pose(self, name: str) -> FloatArray:
+        """Return where a thing is and how it is turned, shape (7,); one that is no body any more is as at the start."""
         scene = self.world.scene
         i = scene.index(name)
         carrier = int(self.carrier[i])
         if carrier < 0:
-            return scene.things[i].position
+            return np.array([*scene.things[i].position, *scene.things[i].orientation])
         body = self.data.body(scene.things[carrier].name)
-        x, y, z = compose_pose(np.array([*body.xpos, *body.xquat]), self.offsets[i])[:3]
-        return (float(x), float(y), float(z))
+        return compose_pose(np.array([*body.xpos, *body.xquat]), self.offsets[i])
+
+    def place(self, name: str) -> Triple:
+        """Return where a thing is in the world [m]; one that is no body any more is where it was at the start."""
+        x, y, z = (float(value) for value in self.pose(name)[:3])
+        return (x, y, z)
+
+    def orientation(self, name: str) -> Quaternion:
+        """Return how a thing is turned in the world, a unit quaternion (w, x, y, z)."""
+        w, x, y, z = (float(value) for value in self.pose(name)[3:])
+        return (w, x, y, z)
 
     def velocity(self, name: str) -> FloatArray:
         """Return the velocity of a thing's carrier [m/s], shape (3,); zeros if it has none."""

@@ -8,9 +8,10 @@ from tests.scenes import EGG_IN_HAND, scene
 from prolepsis.errors import InputError, PlanError, UnknownNameError
 from prolepsis.programs import ACTIONS, check_units, read_program
 from prolepsis.programs.commands import BaseTarget, Begin, CloseGripper, Command, End, HandSense, OpenGripper, Sense
+from prolepsis.robots.hand import HAND
 from prolepsis.scene import Scene
 from prolepsis.terms import Term, parse_term
-from prolepsis.things import Triple
+from prolepsis.things import IDENTITY, Triple
 
 
 @pytest.fixture(scope="module")
@@ -22,13 +23,14 @@ class FakeHand:
     """A hand that does at once what it is told."""
 
     def __init__(self, position: Triple, opening: float = 0.05) -> None:
-        self.start, self.offset, self.opening, self.motion, self.force = position, (0.0, 0.0, 0.0), opening, 0, 0.0
+        self.start, self.offset, self.turn = position, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+        self.opening, self.motion, self.force = opening, 0, 0.0
 
     def obey(self, commands: tuple[Command, ...]) -> None:
         self.motion = 0
         for command in commands:
             if isinstance(command, BaseTarget):
-                self.offset = command.offset
+                self.offset, self.turn = command.offset, command.turn
             elif isinstance(command, OpenGripper):
                 self.opening = command.width
             elif isinstance(command, CloseGripper):
@@ -39,11 +41,16 @@ class FakeHand:
         hand = HandSense(
             position=(here[0], here[1], here[2]),
             offset=self.offset,
+            turn=self.turn,
             opening=self.opening,
+            grip=self.force,
+            load=(0.0, 0.0, min(HAND.position_gain * self.offset[2], 0.0)),
             pad_force=self.force,
             motion=self.motion,
         )
-        return Sense(time=time, hands={"hand1": hand}, place=lambda name: (0.0, 0.0, 0.722))
+        return Sense(
+            time=time, hands={"hand1": hand}, place=lambda name: (0.0, 0.0, 0.722), orientation=lambda _: IDENTITY
+        )
 
 
 def carried_out(plan: str, known: Scene, hand: FakeHand | None = None) -> list[tuple[int, Command]]:
@@ -87,6 +94,35 @@ def test_a_move_keeps_to_its_acceleration_and_speed(egg_in_hand: Scene) -> None:
     assert last.offset == pytest.approx((0.6, 0.0, 0.8))
 
 
+def test_a_tilt_keeps_to_its_rate_and_a_tilted_hand_stays_tilted_when_it_is_carried(egg_in_hand: Scene) -> None:
+    said = carried_out("sequence([tilt(hand1, 1.2, 2.0), carry(hand1, [0.1, 0, 0], 4.0)])", egg_in_hand)
+    targets = [c for _, c in said if isinstance(c, BaseTarget)]
+    rolls = [c.turn[2] for c in targets]
+    steps = [(b - a) / 1e-3 for a, b in zip(rolls, rolls[1:], strict=False)]
+    assert max(steps) == pytest.approx(2.0, rel=0.01)
+    assert min(steps) >= 0.0
+    assert [c.spin[2] for c in targets][1 : len(steps) + 1] == pytest.approx(steps, abs=0.01)
+    assert targets[-1].turn == pytest.approx((0.0, 0.0, 1.2))
+    assert targets[-1].offset == pytest.approx((0.1, 0.0, 0.0))
+
+
+def test_squeezing_ends_with_the_grip_that_was_before(egg_in_hand: Scene) -> None:
+    said = carried_out("sequence([grasp(hand1, egg1, 5), squeeze(hand1, egg1, 9, 0.1)])", egg_in_hand)
+    assert [c.force for _, c in said if isinstance(c, CloseGripper)] == [5.0, 9.0, 5.0]
+
+
+def test_wiping_presses_strokes_there_and_back_and_lets_go_of_the_surface(egg_in_hand: Scene) -> None:
+    said = carried_out("wipe(hand1, egg1, table1, [0.1, 0.05, 0], 3, 2.0)", egg_in_hand)
+    offsets = [c.offset for _, c in said if isinstance(c, BaseTarget)]
+    # The surface of this hand is a spring at height 0.
+    lowest = -2.0 / HAND.position_gain
+    assert min(z for _, _, z in offsets) == pytest.approx(lowest, rel=0.02)
+    assert all(z == pytest.approx(lowest, rel=0.02) for x, _, z in offsets if 0.001 < x < 0.099)
+    assert max(x for x, _, _ in offsets) == pytest.approx(0.1)
+    # Three strokes: there, back and there.
+    assert offsets[-1] == pytest.approx((0.1, 0.05, 0.0), abs=1e-9)
+
+
 def test_grasp_reaches_for_what_is_elsewhere_and_closes_with_the_named_level(egg_in_hand: Scene) -> None:
     hand = FakeHand((0.2, 0.1, 0.95), opening=0.0)
     said = carried_out("grasp(hand1, egg1, force7)", egg_in_hand, hand)
@@ -103,7 +139,11 @@ def test_grasp_tells_the_greatest_pad_force_as_evidence(egg_in_hand: Scene) -> N
 
 REFUSED = [
     ("gasp(hand1, egg1, 5)", UnknownNameError, "plan: no action named 'gasp'; did you mean 'grasp'"),
-    ("grasp(hand1)", PlanError, r"plan: grasp\(hand1\) has 1 argument, needed: grasp\(Hand, Object, Force\)"),
+    (
+        "grasp(hand1)",
+        PlanError,
+        r"plan: grasp\(hand1\) has 1 argument, needed: grasp\(Hand, Object, Force, Height = 0 m\)",
+    ),
     ("lift(hand1, 0.1, 0.2, 0.3, 0.4)", PlanError, r"has 5 arguments, needed: lift\(Hand, Height, Speed = 0.25"),
     ("grasp(hand2, egg1, 5)", UnknownNameError, "plan: hand of .*: no gripper named 'hand2'.*known: hand1"),
     ("grasp(hand1, egg7, 5)", UnknownNameError, "plan: object of .*: no object named 'egg7'.*known: egg1"),
@@ -113,6 +153,13 @@ REFUSED = [
     ("lift(hand1, high)", PlanError, r"must be a number \[m\], not high"),
     ("carry(hand1, 0.3, 2.0)", PlanError, r"must be a list of three lengths .*, such as \[0.2, 0, 0.1\]"),
     ("grasp(hand1, table1, 5)", PlanError, "table1 is not graspable: .* mm wide between the pads, hand1 opens 90 mm"),
+    ("tilt(hand1, 90)", PlanError, r"must be at most 3.142 rad in size, not 90; degrees need a parameter such as"),
+    ("tilt(hand1, 1, 30)", PlanError, r"rate of .* must be at most 6 rad/s in size, not 30; degrees need a param"),
+    ("lift(hand1, 0.1, 1, 50)", PlanError, r"acceleration of .* must be at most 30 m/s2 in size, not 50"),
+    ("wipe(hand1, egg1, table1, [0.1, 0, 0], 2, 200)", PlanError, "200 N is more than the hand's base has: 150 N"),
+    ("pour(hand1, egg1, egg1)", PlanError, "egg1 cannot be poured into itself"),
+    ("pour(hand1, egg1, floor)", PlanError, "floor has no body to pour to"),
+    ("pour(hand1, egg1, table1)", PlanError, "hand1 is not level, so it cannot pour; allowed: pitch 0 and roll 0"),
     ("sequence(lift(hand1, 0.1))", PlanError, "sequence needs a list of at least one action"),
     ("sequence([Something])", PlanError, "Something stands where an action is needed"),
     ("wait", PlanError, "wait is no action; an action looks like"),

@@ -11,7 +11,20 @@ from prolepsis.terms import Value, format_value
 from prolepsis.timeline import Argument, Fact
 
 _VOWELS = "aeiou"
-ACTIONS = ("carry", "close", "grasp", "hold", "lift", "reach", "release", "wait")
+ACTIONS = (
+    "carry",
+    "close",
+    "grasp",
+    "hold",
+    "lift",
+    "pour",
+    "reach",
+    "release",
+    "squeeze",
+    "tilt",
+    "wait",
+    "wipe",
+)
 """Actions that are listed with their events; any other action in a log becomes an event in the same way."""
 
 

@@ -9,6 +9,7 @@ from typing import Any
 
 from prolepsis.errors import PlanError, UnknownNameError
 from prolepsis.programs.commands import Behaviour
+from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.scene.scene import Scene
 from prolepsis.terms import Term, Value, Variable
 from prolepsis.things import Thing
@@ -21,13 +22,40 @@ KINDS: Mapping[str, str] = {
     "duration": "[s]",
     "speed": "[m/s]",
     "acceleration": "[m/s^2]",
+    "angle": "[rad]",
+    "rate": "[rad/s]",
+    "count": "[1]",
     "displacement": "list of three lengths along the world's axes [m]",
 }
 """What an argument of an action may be, with its unit."""
 
 
-UNITS: Mapping[str, str] = {"force": "N", "length": "m", "duration": "s", "speed": "m/s", "acceleration": "m/s2"}
+UNITS: Mapping[str, str] = {
+    "force": "N",
+    "length": "m",
+    "duration": "s",
+    "speed": "m/s",
+    "acceleration": "m/s2",
+    "angle": "rad",
+    "rate": "rad/s",
+}
 """SI unit of each kind of quantity."""
+
+
+SIGNED = frozenset({"length", "angle"})
+"""Kinds of quantities that may be zero or negative."""
+GREATEST: Mapping[str, float] = {
+    "acceleration": ROBOT.max_acceleration,
+    "rate": ROBOT.max_turn_rate,
+    "angle": math.pi,
+    "count": 100.0,
+}
+"""Greatest size of some kinds, in SI units: what the hand cannot follow is refused."""
+HINTS: Mapping[str, str] = {
+    "angle": '; degrees need a parameter such as { value = 90, unit = "deg" }',
+    "rate": '; degrees need a parameter such as { value = 90, unit = "deg/s" }',
+}
+"""What may have been meant."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -128,8 +156,11 @@ def _bind(parameter: Parameter, value: Value, term: Term, scene: Scene) -> Any:
     if not isinstance(value, int | float) or isinstance(value, bool):
         raise PlanError(f"{where} must be a number {KINDS[parameter.kind]}, not {value}")
     number = _finite(float(value), where)
-    if parameter.kind != "length" and number <= 0:
-        raise PlanError(f"{where} must be positive, not {number:g} {UNITS[parameter.kind]}")
+    if parameter.kind not in SIGNED and number <= 0:
+        raise PlanError(f"{where} must be positive, not {number:g} {UNITS.get(parameter.kind, '')}".rstrip())
+    if parameter.kind in GREATEST and abs(number) > GREATEST[parameter.kind]:
+        most = f"{GREATEST[parameter.kind]:.4g} {UNITS.get(parameter.kind, '')}".rstrip()
+        raise PlanError(f"{where} must be at most {most} in size, not {number:g}{HINTS.get(parameter.kind, '')}")
     return number
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Generator, Mapping
 from dataclasses import dataclass, field
 
 from prolepsis.terms import Term
-from prolepsis.things import Triple
+from prolepsis.things import Quaternion, Triple
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -20,11 +20,14 @@ class BaseTarget:
     """Its rate of change [m/s]."""
     turn: Triple = (0.0, 0.0, 0.0)
     """Yaw, pitch and roll from the first orientation, about the hand's own axes [rad]."""
+    spin: Triple = (0.0, 0.0, 0.0)
+    """Its rate of change [rad/s]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class CloseGripper:
-    """Close quickly to a gap, slowly from there until contact, then raise the force."""
+    """Close quickly to a gap, slowly from there until contact, then raise the force; if the hand grips already,
+    change the force from what it is."""
 
     hand: str
     force: float
@@ -73,8 +76,14 @@ class HandSense:
     """Place of the hand's frame in the world [m]."""
     offset: Triple
     """Its commanded displacement from the first position [m]."""
+    turn: Triple
+    """Its commanded yaw, pitch and roll from the first orientation [rad]."""
     opening: float
     """Gap between the pads [m]."""
+    grip: float
+    """Commanded force of each pad [N], 0 when it does not close."""
+    load: Triple
+    """Force with which the base holds against what pulls or pushes the hand, world axes [N]."""
     pad_force: float
     """The smaller of the two pads' normal forces [N]."""
     motion: int
@@ -91,6 +100,8 @@ class Sense:
     """Each hand's own sense."""
     place: Callable[[str], Triple]
     """Position of a thing in the world [m], as a perfect camera would see it."""
+    orientation: Callable[[str], Quaternion]
+    """Unit quaternion (w, x, y, z) of a thing in the world, seen likewise."""
 
 
 Behaviour = Generator[tuple[Command, ...], Sense, Sense]

@@ -43,6 +43,10 @@ class Hand:
     """Distance from its first position that the hand can reach along each axis [m]."""
     base_force: float = 150.0
     """Greatest force of the base along each axis [N]: what it meets is pushed, not crushed."""
+    max_acceleration: float = 30.0
+    """Greatest acceleration that is commanded [m/s^2]: with 2 kg held, two thirds of the base's force."""
+    max_turn_rate: float = 6.0
+    """Greatest rate of turning that is commanded [rad/s]; a human wrist reaches about twice that."""
     position_gain: float = 2.0e4
     """Servo stiffness of the base [N/m]."""
     velocity_gain: float = 400.0

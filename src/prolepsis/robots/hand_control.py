@@ -47,10 +47,13 @@ class HandControl:
         self._width = opening
         self._base = np.zeros(6)
         self._velocity = np.zeros(6)
+        self._lags = np.repeat([hand.velocity_gain / hand.position_gain, hand.turn_damping / hand.turn_gain], 3)
         self._goal: CloseGripper | OpenGripper | None = None
         self._elapsed = 0.0
         self._still = 0.0
         self._ramp: float | None = None
+        self._ramp_from = 0.0
+        self._motor_force = 0.0
         self._gains = (-hand.opening_gain, -hand.opening_damping)
         self._version = -1
         self.bind(state)
@@ -84,10 +87,14 @@ class HandControl:
         """Take a command for this hand."""
         if isinstance(command, BaseTarget):
             self._base[:] = (*command.offset, *command.turn)
-            self._velocity[:3] = command.velocity
+            self._velocity[:] = (*command.velocity, *command.spin)
         elif isinstance(command, CloseGripper):
+            gripping = isinstance(self._goal, CloseGripper) and self._ramp is not None
             self._goal, self.motion, self.command = command, -1, command.force
-            self._elapsed, self._still, self._ramp = 0.0, 0.0, None
+            self._elapsed, self._still = 0.0, 0.0
+            # What is held must not be let go of while the force changes.
+            touch = min(TOUCH_FORCE, command.force)
+            self._ramp, self._ramp_from = (0.0, self._motor_force) if gripping else (None, touch)
             self._width = self.opening
         elif isinstance(command, OpenGripper):
             self._goal, self.command = command, 0.0
@@ -97,9 +104,8 @@ class HandControl:
     def act(self, state: State, dt: float) -> None:
         """Set the motors for the coming tick of ``dt`` [s]."""
         self.bind(state)
-        hand = self.hand
         # The base's target runs ahead by the lag that the servo's damping causes.
-        target = self._base + hand.velocity_gain / hand.position_gain * self._velocity
+        target = self._base + self._lags * self._velocity
         self._data.ctrl[self._servos] = target
         if isinstance(self._goal, CloseGripper):
             self._close(self._goal, dt)
@@ -111,7 +117,7 @@ class HandControl:
             self._approach(goal.width, FAST_SPEED, dt)
             return
         force = min(goal.force, self.hand.max_force)
-        touch = min(TOUCH_FORCE, force)
+        touch = self._ramp_from
         speed = abs(float(self._data.ten_velocity[self._gap])) / 2
         limit = SPEED_LIMIT
         if self._ramp is None:
@@ -126,6 +132,7 @@ class HandControl:
             now = touch + (force - touch) * share * share * (3 - 2 * share)
             if self._ramp >= RAMP_TIME + SETTLING_TIME and speed < STALL_SPEED * SPEED_LIMIT:
                 self.motion = 0
+        self._motor_force = now
         # The motor acts on the gap, whose speed is twice a finger's.
         self._set_gains(0.0, -now / (2 * limit))
         self._data.ctrl[self._motor] = -now
@@ -156,7 +163,16 @@ class HandControl:
     def sense(self) -> HandSense:
         """Return what the hand knows of itself."""
         x, y, z = (float(value) for value in self._data.xpos[self._palm])
-        a, b, c = (float(value) for value in self._base[:3])
+        a, b, c, yaw, pitch, roll = (float(value) for value in self._base)
+        # The slides of the base lie along the world's axes.
+        fx, fy, fz = (float(value) for value in self._data.actuator_force[self._servos[:3]])
         return HandSense(
-            position=(x, y, z), offset=(a, b, c), opening=self.opening, pad_force=self.pad_force, motion=self.motion
+            position=(x, y, z),
+            offset=(a, b, c),
+            turn=(yaw, pitch, roll),
+            opening=self.opening,
+            grip=self.command,
+            load=(fx, fy, fz),
+            pad_force=self.pad_force,
+            motion=self.motion,
         )

@@ -4,8 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from prolepsis.programs.action import FORCE, HAND, OBJECT, action
-from prolepsis.programs.actions.motion import CLEARANCE, grasping_width, open_to, reach, way_to, within_workspace
+from prolepsis.programs.action import FORCE, HAND, OBJECT, Parameter, action
+from prolepsis.programs.actions.motion import (
+    CLEARANCE,
+    HEIGHT,
+    grasping_width,
+    open_to,
+    reach,
+    stay,
+    way_to,
+    within_workspace,
+)
 from prolepsis.programs.commands import Behaviour, CloseGripper, Sense
 from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.scene.scene import Scene
@@ -36,14 +45,26 @@ def close(scene: Scene, sense: Sense, *, hand: Thing, force: float) -> Behaviour
     return (yield from close_from(hand, ROBOT.max_opening, force, sense))
 
 
-@action(HAND, OBJECT, FORCE, check=within_workspace)
-def grasp(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, force: float) -> Behaviour:
-    """Reach for the object unless the hand is there, then close the gripper with the given force."""
+@action(HAND, OBJECT, FORCE, HEIGHT, check=within_workspace)
+def grasp(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, force: float, height: float) -> Behaviour:
+    """Reach for the object's middle, or a height above, unless the hand is there; close with the given force."""
     width = grasping_width(hand, object)
-    way = way_to(hand, object, sense)
+    way = way_to(hand, object, sense, height)
     if np.abs(way).max() > CLEARANCE or sense.hands[hand.name].opening < width:
-        sense = yield from reach(scene, sense, hand=hand, object=object, speed=0.25)
+        sense = yield from reach(scene, sense, hand=hand, object=object, speed=0.25, height=height)
     return (yield from close_from(hand, width + CLEARANCE, force, sense))
+
+
+@action(HAND, OBJECT, FORCE, Parameter(name="duration", kind="duration", default=1.0))
+def squeeze(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, force: float, duration: float) -> Behaviour:
+    """Press what the hand holds with the given force for a while, then hold it as before."""
+    del scene, object
+    before = sense.hands[hand.name].grip
+    sense = yield from close_from(hand, ROBOT.max_opening, force, sense)
+    sense = yield from stay(duration, sense)
+    if before > 0.0:
+        sense = yield from close_from(hand, ROBOT.max_opening, before, sense)
+    return sense
 
 
 @action(HAND)

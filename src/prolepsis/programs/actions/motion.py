@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from prolepsis.errors import PlanError
@@ -28,6 +30,21 @@ OPENING_SPEED = 0.2
 
 SPEED = Parameter(name="speed", kind="speed", default=0.25)
 ACCELERATION = Parameter(name="acceleration", kind="acceleration", default=1.0)
+HEIGHT = Parameter(name="height", kind="length", default=0.0)
+
+
+def line(displacement: Triple, acceleration: float, speed: float) -> Iterator[tuple[Triple, Triple]]:
+    """Yield the way [m] and the velocity [m/s] at each tick along a line, from rest to rest, with the least jerk."""
+    x, y, z = displacement
+    distance = float(np.linalg.norm(displacement))
+    # Of the least-jerk profile over T: greatest speed 1.875 d/T, greatest acceleration 5.7735 d/T^2.
+    duration = max(1.875 * distance / speed, (5.7735 * distance / acceleration) ** 0.5)
+    count = max(round(duration / TICK), 1)
+    for k in range(1, count + 1):
+        s = k / count
+        share = s**3 * (10 - 15 * s + 6 * s * s)
+        rate = 30 * s * s * (1 - s) ** 2 / (count * TICK)
+        yield (share * x, share * y, share * z), (rate * x, rate * y, rate * z)
 
 
 def travel(hand: Thing, sense: Sense, displacement: Triple, acceleration: float, speed: float) -> Behaviour:
@@ -40,18 +57,10 @@ def travel(hand: Thing, sense: Sense, displacement: Triple, acceleration: float,
         acceleration: Greatest acceleration [m/s^2].
         speed: Greatest speed [m/s].
     """
-    start = sense.hands[hand.name].offset
-    distance = float(np.linalg.norm(displacement))
-    # Of the least-jerk profile over T: greatest speed 1.875 d/T, greatest acceleration 5.7735 d/T^2.
-    duration = max(1.875 * distance / speed, (5.7735 * distance / acceleration) ** 0.5)
-    count = max(round(duration / TICK), 1)
-    for k in range(1, count + 1):
-        s = k / count
-        share = s**3 * (10 - 15 * s + 6 * s * s)
-        rate = 30 * s * s * (1 - s) ** 2 / (count * TICK)
-        offset = _added(start, displacement, share)
-        velocity = _added((0.0, 0.0, 0.0), displacement, rate)
-        sense = yield (BaseTarget(hand=hand.name, offset=offset, velocity=velocity),)
+    start, turn = sense.hands[hand.name].offset, sense.hands[hand.name].turn
+    for step, velocity in line(displacement, acceleration, speed):
+        offset = (start[0] + step[0], start[1] + step[1], start[2] + step[2])
+        sense = yield (BaseTarget(hand=hand.name, offset=offset, velocity=velocity, turn=turn),)
     return sense
 
 
@@ -76,13 +85,11 @@ def grasping_width(hand: Thing, object: Thing) -> float:
     return extent_along(object, rotate(hand.orientation, (0.0, 1.0, 0.0)))
 
 
-def way_to(hand: Thing, object: Thing, sense: Sense) -> FloatArray:
-    """Return the way from a hand to the middle of an object [m], shape (3,); it is taken to stand as at the start."""
-    return np.asarray(sense.place(object.name)) + middle(object) - np.asarray(sense.hands[hand.name].position)
-
-
-def _added(start: Triple, step: Triple, share: float) -> Triple:
-    return (start[0] + share * step[0], start[1] + share * step[1], start[2] + share * step[2])
+def way_to(hand: Thing, object: Thing, sense: Sense, height: float = 0.0) -> FloatArray:
+    """Return the way from a hand to a place [m], shape (3,): ``height`` over the middle of an object, which is taken to
+    stand as at the start."""
+    place = np.asarray(sense.place(object.name)) + middle(object) + (0.0, 0.0, height)
+    return place - np.asarray(sense.hands[hand.name].position)
 
 
 def within_workspace(scene: Scene, *, hand: Thing, object: Thing, **_: object) -> None:
@@ -101,14 +108,14 @@ def within_workspace(scene: Scene, *, hand: Thing, object: Thing, **_: object) -
         )
 
 
-@action(HAND, OBJECT, SPEED, check=within_workspace)
-def reach(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, speed: float) -> Behaviour:
-    """Open the gripper wider than the object, if it is not, and move it around the object's centre."""
+@action(HAND, OBJECT, SPEED, HEIGHT, check=within_workspace)
+def reach(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, speed: float, height: float) -> Behaviour:
+    """Open the gripper wider than the object, if it is not, and move it round the object, or a height above."""
     del scene
     width = min(grasping_width(hand, object) + MARGIN, ROBOT.max_opening)
     if sense.hands[hand.name].opening < width:
         sense = yield from open_to(hand, width, sense)
-    way = way_to(hand, object, sense)
+    way = way_to(hand, object, sense, height)
     forward = rotate(hand.orientation, (1.0, 0.0, 0.0))
     ahead = float(way @ forward)
     first = way - min(ahead, STANDOFF) * forward

@@ -1,0 +1,133 @@
+"""Pouring: a held vessel turns while its lip stays over the middle of what is poured to."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from prolepsis.errors import PlanError
+from prolepsis.programs.action import HAND, Parameter, action
+from prolepsis.programs.actions.motion import travel
+from prolepsis.programs.actions.turning import RATE
+from prolepsis.programs.commands import BaseTarget, Behaviour, Sense
+from prolepsis.programs.lip import Below, heights, lip_of
+from prolepsis.programs.outline import outline
+from prolepsis.programs.turning import TICK, course, matrix, rolled
+from prolepsis.robots.hand import HAND as ROBOT
+from prolepsis.robots.hand import rotate
+from prolepsis.scene.scene import Scene
+from prolepsis.things import FloatArray, Thing
+
+LEVEL = 0.05
+"""The hand's forward and left axes may rise by this much and still count as level [1]."""
+APPROACH_SPEED, APPROACH_ACCELERATION = 0.4, 1.5
+"""With which the vessel is carried over the other [m/s, m/s^2]: a cup that is not full to the brim does not spill."""
+
+
+def _can_pour(scene: Scene, *, hand: Thing, source: Thing, target: Thing, **_: object) -> None:
+    """Refuse a pouring that has no lip, no target or no level axis to turn about."""
+    del scene
+    if source.name == target.name:
+        raise PlanError(f"plan: {source.name} cannot be poured into itself")
+    for thing in (source, target):
+        if not len(outline(thing)):
+            raise PlanError(f"plan: {thing.name} has no body to pour {'from' if thing is source else 'to'}")
+    if max(abs(rotate(hand.orientation, axis)[2]) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))) > LEVEL:
+        raise PlanError(f"plan: {hand.name} is not level, so it cannot pour; allowed: pitch 0 and roll 0, any yaw")
+    way = np.abs(np.asarray(target.position) - np.asarray(hand.position)).max()
+    if way > ROBOT.workspace:
+        raise PlanError(
+            f"plan: {target.name} is out of reach of {hand.name}: {way:.2f} m away, allowed {ROBOT.workspace:g} m"
+        )
+
+
+@action(
+    HAND,
+    Parameter(name="source", kind="object"),
+    Parameter(name="target", kind="object"),
+    Parameter(name="angle", kind="angle", default=math.radians(110.0)),
+    RATE,
+    Parameter(name="height", kind="length", default=0.02),
+    Parameter(name="offset", kind="length", default=0.0),
+    Parameter(name="duration", kind="duration", default=1.0),
+    check=_can_pour,
+)
+def pour(
+    scene: Scene,
+    sense: Sense,
+    *,
+    hand: Thing,
+    source: Thing,
+    target: Thing,
+    angle: float,
+    rate: float,
+    height: float,
+    offset: float,
+    duration: float,
+) -> Behaviour:
+    """Tilt the held source over the target, its lip at a height over the target's top, offset past its middle."""
+    state = sense.hands[hand.name]
+    yaw, pitch, roll = state.turn
+    level = matrix(hand.orientation)
+    left, here = level[:, 1], np.asarray(state.position)
+    top = _points(sense, [target])
+    middle = (top.min(axis=0) + top.max(axis=0)) / 2
+    side = 1 if float((middle - here) @ left) >= 0.0 else -1
+    # Everything that moves, in the hand's frame as it would be without the roll that there is already.
+    upright = level @ rolled(roll)
+    held = (_points(sense, [source]) - here) @ upright
+    moved = np.concatenate([held, (_points(sense, scene.parts(hand.name)) - here) @ upright])
+    lip = lip_of(held, side)
+    below = Below(half_forward=_half(top @ level[:, 0]), half_aside=_half(top @ left), height=float(np.ptp(top[:, 2])))
+    angles = course(-side * roll, angle, rate)
+    lifts = heights(moved, lip, below, angles, side=side, offset=offset, height=height)
+    goal = np.array([middle[0], middle[1], top[:, 2].max()]) + side * offset * left
+    turned = np.array([level @ rolled(-side * a) @ lip for a in angles])
+    way = goal - turned + lifts[:, None] * (0.0, 0.0, 1.0) - here
+    sense = yield from _approach(hand, sense, way[0])
+    # The way is seen from where the hand is, the commands from where they were: the servo may lag by a little.
+    offsets = np.asarray(state.offset) + way
+    velocities = np.diff(offsets, axis=0, prepend=offsets[:1]) / TICK
+    spins = np.diff(angles, prepend=angles[:1]) / TICK
+    for k, now in enumerate(angles):
+        sense = yield (
+            BaseTarget(
+                hand=hand.name,
+                offset=_triple(offsets[k]),
+                velocity=_triple(velocities[k]),
+                turn=(yaw, pitch, -side * float(now)),
+                spin=(0.0, 0.0, -side * float(spins[k])),
+            ),
+        )
+    still = BaseTarget(hand=hand.name, offset=_triple(offsets[-1]), turn=(yaw, pitch, -side * float(angles[-1])))
+    sense = yield (still,)
+    for _ in range(max(round(duration / TICK) - 1, 0)):
+        sense = yield ()
+    return sense
+
+
+def _approach(hand: Thing, sense: Sense, way: FloatArray) -> Behaviour:
+    """Move up as far as needed, across, and down."""
+    up, down = max(float(way[2]), 0.0), min(float(way[2]), 0.0)
+    for step in ((0.0, 0.0, up), (float(way[0]), float(way[1]), 0.0), (0.0, 0.0, down)):
+        if any(step):
+            sense = yield from travel(hand, sense, step, APPROACH_ACCELERATION, APPROACH_SPEED)
+    return sense
+
+
+def _points(sense: Sense, things: Sequence[Thing]) -> FloatArray:
+    """Return points on things where they are now, in the world [m], shape (n, 3)."""
+    return np.concatenate(
+        [outline(t) @ matrix(sense.orientation(t.name)).T + np.asarray(sense.place(t.name)) for t in things]
+    )
+
+
+def _half(values: FloatArray) -> float:
+    return float(np.ptp(values)) / 2
+
+
+def _triple(values: FloatArray) -> tuple[float, float, float]:
+    x, y, z = (float(value) for value in values)
+    return (x, y, z)

@@ -1,0 +1,30 @@
+"""Turning the hand about its forward axis: what it holds tilts."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from prolepsis.programs.action import HAND, Parameter, action
+from prolepsis.programs.commands import BaseTarget, Behaviour, Sense
+from prolepsis.programs.turning import TICK, course
+from prolepsis.scene.scene import Scene
+from prolepsis.things import Thing
+
+ANGLE = Parameter(name="angle", kind="angle")
+RATE = Parameter(name="rate", kind="rate", default=math.radians(30.0))
+
+
+@action(HAND, ANGLE, RATE)
+def tilt(scene: Scene, sense: Sense, *, hand: Thing, angle: float, rate: float) -> Behaviour:
+    """Turn the hand about its forward axis to an angle, to its right if positive; 0 is upright again."""
+    del scene
+    state = sense.hands[hand.name]
+    yaw, pitch, start = state.turn
+    angles = course(start, angle, rate)
+    for now, spin in zip(angles, np.diff(angles, prepend=start) / TICK, strict=True):
+        turn = (yaw, pitch, float(now))
+        spins = (0.0, 0.0, float(spin))
+        sense = yield (BaseTarget(hand=hand.name, offset=state.offset, turn=turn, spin=spins),)
+    return sense

@@ -1,0 +1,67 @@
+"""Wiping: strokes of what the hand holds over a surface, pressed on with a force."""
+
+from __future__ import annotations
+
+from prolepsis.errors import PlanError
+from prolepsis.programs.action import HAND, OBJECT, Parameter, action
+from prolepsis.programs.actions.motion import TICK, line, travel
+from prolepsis.programs.commands import BaseTarget, Behaviour, Sense
+from prolepsis.robots.hand import HAND as ROBOT
+from prolepsis.scene.scene import Scene
+from prolepsis.things import Thing, Triple
+
+ACCELERATION = 2.0
+"""Of the strokes [m/s^2]."""
+SETTLING = 0.4
+"""Time in which the hand finds the surface and presses [s]."""
+RATE = 20.0
+"""Rate at which an error of the force fades [1/s]: slow against the servo, fast against a stroke."""
+LIFT_SPEED = 0.05
+"""With which the hand lets go of the surface [m/s]."""
+
+
+def _can_press(scene: Scene, *, force: float, **_: object) -> None:
+    del scene
+    if force > ROBOT.base_force:
+        raise PlanError(f"plan: a force of {force:g} N is more than the hand's base has: {ROBOT.base_force:g} N")
+
+
+@action(
+    HAND,
+    OBJECT,
+    Parameter(name="surface", kind="object"),
+    Parameter(name="displacement", kind="displacement"),
+    Parameter(name="strokes", kind="count", default=2.0),
+    Parameter(name="force", kind="force", default=1.0),
+    Parameter(name="speed", kind="speed", default=0.15),
+    check=_can_press,
+)
+def wipe(
+    scene: Scene,
+    sense: Sense,
+    *,
+    hand: Thing,
+    object: Thing,
+    surface: Thing,
+    displacement: Triple,
+    strokes: float,
+    force: float,
+    speed: float,
+) -> Behaviour:
+    """Stroke what the hand holds over the surface, by a displacement and back in turn, pressed on with a force."""
+    del scene, object, surface
+    start = sense.hands[hand.name]
+    still: list[tuple[Triple, Triple]] = [((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))] * round(SETTLING / TICK)
+    here, depth = start.offset, 0.0
+    x, y, z = displacement
+    for stroke in range(round(strokes) + 1):
+        way = (x, y, z) if stroke % 2 else (-x, -y, -z)
+        for step, velocity in still if stroke == 0 else line(way, ACCELERATION, speed):
+            pressed = start.load[2] - sense.hands[hand.name].load[2]
+            # The hand is a spring: commanded deeper, it presses more.
+            depth += (force - pressed) / ROBOT.position_gain * RATE * TICK
+            offset = (here[0] + step[0], here[1] + step[1], here[2] + step[2] - depth)
+            sense = yield (BaseTarget(hand=hand.name, offset=offset, velocity=velocity, turn=start.turn),)
+        if stroke:
+            here = (here[0] + way[0], here[1] + way[1], here[2] + way[2])
+    return (yield from travel(hand, sense, (0.0, 0.0, depth), ACCELERATION, LIFT_SPEED))
