@@ -193,7 +193,7 @@ def range_nodes(graph: Graph, node: Node) -> list[Node]:
 
 def _cells(entry: Property, iri: str, points: set[Scalar]) -> Cells:
     if entry.kind == "truth":
-        return Cells(iri, ("false", "true"), ("false", "true"))
+        return Cells(iri, ("false", "true"), ("false", "true")) if points else Cells(iri, ("false",), ())
     if entry.kind == "text":
         listed = tuple(sorted(str(point) for point in points))
         return Cells(iri, (*listed, "".join(listed) + " and any other"), listed)

@@ -228,6 +228,11 @@ class KnowledgeBase:
         statements = self.situation.statements
         return tuple(sorted({s.subject for s in statements if s.property == relation and s.value == name}))
 
+    def objects_of(self, relation: str, name: str) -> tuple[str, ...]:
+        """Return the individuals to which ``name`` has an asserted relation, sorted."""
+        statements = self.situation.statements
+        return tuple(sorted({str(s.value) for s in statements if s.property == relation and s.subject == name}))
+
     def stated(self, name: str, property_name: str) -> float | None:
         """Return the number that the situation states [SI], or None."""
         for s in self.situation.statements:

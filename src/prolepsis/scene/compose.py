@@ -12,6 +12,8 @@ from prolepsis.errors import KnowledgeError
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.robots.hand import HAND
 from prolepsis.scene.egg_things import egg_things
+from prolepsis.scene.filling import DEFAULT_PARTICLES, fill
+from prolepsis.scene.liquids import is_liquid, liquid_thing, place_of, refuse_idle
 from prolepsis.scene.placing import resting_height
 from prolepsis.scene.scene import Scene
 from prolepsis.scene.world import HIDDEN_ROLES
@@ -56,14 +58,23 @@ STUFFS = {"EggYolk": "yolk", "EggWhite": "white"}
 """Stuffs that are modelled as balls inside an egg, and their sort."""
 
 
-def compose(kb: KnowledgeBase) -> Scene:
+def compose(kb: KnowledgeBase, *, particles: int = DEFAULT_PARTICLES) -> Scene:
     """Return the scene of a situation.
+
+    Args:
+        kb: The situation.
+        particles: Number of particles of the largest liquid.
 
     Raises:
         KnowledgeError: If something has no shape or place that can be simulated.
     """
-    wholes = [name for name in kb.objects if kb.whole(name) is None]
-    below = {subject: place for relation, subject, place in kb.relations() if relation == "on"}
+    names = [name for name in kb.objects if kb.whole(name) is None]
+    liquids = [name for name in names if is_liquid(kb, name)]
+    wholes = [name for name in names if name not in liquids]
+    places = {name: place_of(kb, name) for name in liquids}
+    for name in wholes:
+        refuse_idle(kb, name)
+    below = {subject: place for relation, subject, place in kb.relations() if relation == "on" and subject in wholes}
     # What is in something is lowered into it from above, as what is on something is lowered onto it.
     below |= {
         inside: vessel for relation, vessel, inside in kb.relations() if relation == "contains" and inside in wholes
@@ -71,7 +82,15 @@ def compose(kb: KnowledgeBase) -> Scene:
     made: dict[str, tuple[Thing, ...]] = {}
     for name in _supporters_first(wholes, below):
         made[name] = _things_of(kb, name, made, below.get(name))
-    return Scene(things=tuple(thing for name in wholes for thing in made[name]), domain=kb.domain())
+    flowing = [liquid_thing(kb, name, _roles(kb, name)) for name in liquids]
+    solids = {name: tuple(t for t in made[name] if not t.roles & HIDDEN_ROLES) for name in wholes}
+    flowing, pools = fill(flowing, places, solids, particles)
+    made |= {each.name: (each,) for each in flowing}
+    return Scene(things=tuple(thing for name in names for thing in made[name]), domain=kb.domain(), pools=pools)
+
+
+def _roles(kb: KnowledgeBase, name: str) -> frozenset[str]:
+    return frozenset(c for c in kb.classes(name) if c in ROLES)
 
 
 def _supporters_first(names: list[str], below: dict[str, str]) -> list[str]:
@@ -144,7 +163,7 @@ def _thing(kb: KnowledgeBase, name: str) -> Thing:
         position=(quantities.get("x", 0.0), quantities.get("y", 0.0), quantities.get("z", default_height)),
         orientation=orientation,
         mass=quantities.get("mass", 0.0),
-        roles=frozenset(c for c in kb.classes(name) if c in ROLES),
+        roles=_roles(kb, name),
         fixed=fixed,
         quantities=quantities,
     )
@@ -236,6 +255,6 @@ def _part(kb: KnowledgeBase, name: str, whole: Thing) -> Thing:
         orientation=whole.orientation,
         mass=quantities.get("mass", 0.0),
         whole=whole.name,
-        roles=frozenset(c for c in kb.classes(name) if c in ROLES) - {"Breakable", "Container"},
+        roles=_roles(kb, name) - {"Breakable", "Container"},
         quantities={**quantities, **deviations},
     )
