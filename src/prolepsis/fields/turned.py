@@ -14,7 +14,7 @@ from prolepsis.errors import KnowledgeError
 Point = tuple[float, float]
 """Radius and height [m]."""
 
-ARC_POINTS = 32
+ARC_POINTS = 16
 """Points along the arc of a bowl: the outline departs from it by less than 0.1 mm in a bowl of 16 cm."""
 FOOT = 0.35
 """Radius of a bowl's flat foot over that of its rim [1]."""

@@ -9,8 +9,7 @@ import numpy as np
 from scipy import ndimage  # pyright: ignore[reportMissingTypeStubs]
 
 from prolepsis.fields.cavity import BLOCKED, LEAST_DEPTH, spill_levels
-from prolepsis.fields.signed_distance import Field, field_of
-from prolepsis.fields.solids import bounded, matrix
+from prolepsis.scene.placed import Placed, placed
 from prolepsis.things import BoolArray, FloatArray, IntArray, Thing
 
 NODE_COUNT = 250_000
@@ -23,7 +22,7 @@ MARGIN = 3
 class Basin:
     """The largest depression of a container at its pose, on a grid whose third axis points up."""
 
-    container: Thing
+    container: Placed
     """The container, its holes stopped."""
     origin: FloatArray
     """World position of the first node [m], shape (3,)."""
@@ -49,15 +48,11 @@ class Basin:
             low, high = (middle, high) if float(self.areas @ self._covered(middle)) < volume else (low, middle)
         return (low + high) / 2
 
-    def distance(self, points: FloatArray) -> FloatArray:
-        """Return the distance of world points, shape (n, 3), to the container's matter [m], shape (n,)."""
-        return distance_to(self.container, points)
-
     def within(self, points: FloatArray) -> BoolArray:
         """Return whether world points, shape (n, 3), that are in no matter are in the basin, shape (n,)."""
         place: IntArray = np.rint((points - self.origin) / self.step).astype(np.int64)
         shape = np.array(self.nodes.shape)
-        inside: BoolArray = ((place >= 0) & (place < shape)).all(axis=1)
+        inside: BoolArray = np.all((place >= 0) & (place < shape), axis=1, keepdims=False)
         place = np.clip(place, 0, shape - 1)
         return inside & self.nodes[tuple(place.T)]
 
@@ -69,18 +64,16 @@ class Basin:
 
 def basin_of(container: Thing) -> Basin | None:
     """Return the largest depression of a container as it stands, or None if it has none. Holes count as stopped."""
-    whole = replace(container, shape=replace(container.shape, holes=()))
-    rotation, position = matrix(np.array(whole.orientation)), np.array(whole.position)
-    corners = np.concatenate([solid.corners @ solid.rotation.T + solid.position for solid in bounded(whole.shape)])
-    placed = corners @ rotation.T + position
-    low, high = placed.min(axis=0), placed.max(axis=0)
+    whole = placed(replace(container, shape=replace(container.shape, holes=())))
+    low, high = whole.low, whole.high
     step = float(np.prod(np.maximum(high - low, 1e-3)) / NODE_COUNT) ** (1 / 3)
     origin: FloatArray = low - MARGIN * step
-    shape = np.ceil((high - low) / step).astype(np.int64) + 2 * MARGIN + 1
-    nodes = np.moveaxis(np.indices(tuple(shape.tolist()), dtype=np.float64), 0, -1)
-    distance = distance_to(whole, (origin + step * nodes).reshape(-1, 3)).reshape(nodes.shape[:3])
-    heights = np.broadcast_to(origin[2] + step * np.arange(shape[2]), distance.shape)
-    levels = spill_levels(np.ascontiguousarray(heights), distance < BLOCKED * step)
+    shape: IntArray = np.ceil((high - low) / step).astype(np.int64) + 2 * MARGIN + 1
+    extent = (int(shape[0]), int(shape[1]), int(shape[2]))
+    nodes = np.moveaxis(np.indices(extent, dtype=np.float64), 0, -1)
+    distance = whole.distance((origin + step * nodes).reshape(-1, 3)).reshape(extent)
+    heights: FloatArray = np.ascontiguousarray(origin[2] + step * nodes[..., 2])
+    levels = spill_levels(heights, distance < BLOCKED * step)
     # Below an infinite level lies a closed hollow, but so does matter.
     hollow = (levels > heights) & (distance >= BLOCKED * step)
     numbers, count = _labelled(hollow)
@@ -107,12 +100,6 @@ def basin_of(container: Thing) -> Basin | None:
         areas=share.sum(axis=(0, 1)) * step**2,
         brim=level,
     )
-
-
-def distance_to(thing: Thing, points: FloatArray) -> FloatArray:
-    """Return the signed distance of world points, shape (n, 3), to a thing's matter [m], shape (n,)."""
-    field: Field = field_of(thing.shape)
-    return field.distance((points - np.array(thing.position)) @ matrix(np.array(thing.orientation)))
 
 
 def _labelled(mask: BoolArray) -> tuple[IntArray, int]:

@@ -11,8 +11,9 @@ import numpy as np
 from prolepsis.errors import KnowledgeError
 from prolepsis.scene.basin import Basin, basin_of
 from prolepsis.scene.packing import lattice, lowest, relaxed
+from prolepsis.scene.placed import Placed, nearest, placed
 from prolepsis.scene.placing import resting_height
-from prolepsis.scene.region import Region, bounds_of, box_of
+from prolepsis.scene.region import Region, box_of
 from prolepsis.scene.scene import Pool
 from prolepsis.things import FloatArray, Geom, Shape, Thing
 
@@ -66,15 +67,15 @@ def fill(
     spacing = (max(volumes.values()) / particles) ** (1 / 3)
     counts = {name: round(volume / spacing**3) for name, volume in volumes.items()}
     _refuse_counts(counts, particles)
-    bodies = tuple(thing for each in solids.values() for thing in each)
+    matter = tuple(placed(thing) for each in solids.values() for thing in each if thing.shape.geoms)
     found: dict[str, FloatArray] = {}
     for host, basin in basins.items():
         inside = [each for each in liquids if places[each.name] == Place(relation="contains", host=host)]
-        found |= _poured(basin, inside, volumes, counts, spacing, bodies)
+        found |= _poured(basin, inside, volumes, counts, spacing, matter)
     for each in liquids:
         place = places[each.name]
         if place.relation == "on":
-            found[each.name] = _puddle(each, solids[place.host], volumes[each.name], counts[each.name], spacing, bodies)
+            found[each.name] = _puddle(each, solids[place.host], volumes[each.name], counts[each.name], spacing, matter)
         elif place.relation == "absorbs":
             found[each.name] = _soaked(each, solids[place.host], counts[each.name])
     made = tuple(_settled(each, volumes[each.name], found[each.name]) for each in liquids)
@@ -142,7 +143,7 @@ def _poured(
     volumes: Mapping[str, float],
     counts: Mapping[str, int],
     spacing: float,
-    bodies: tuple[Thing, ...],
+    matter: tuple[Placed, ...],
 ) -> dict[str, FloatArray]:
     """Return the particles of all liquids in one container, the densest at the bottom."""
     ordered = sorted(liquids, key=lambda each: (-each.quantities["density"], each.name))
@@ -154,7 +155,7 @@ def _poured(
             f"{names}: {1e6 * volume:.4g} ml are to be in {container}, which holds {1e6 * capacity:.4g} ml as it stands"
         )
     level = basin.level(volume)
-    region = Region.of(basin, bodies, spacing, level)
+    region = Region.of(basin, matter, spacing, level)
     count = sum(counts[each.name] for each in ordered)
     points = lowest(region.admits, *box_of(region, basin), count, spacing)
     if points is None:
@@ -173,7 +174,7 @@ def _poured(
 
 
 def _puddle(
-    liquid: Thing, under: tuple[Thing, ...], volume: float, count: int, spacing: float, bodies: tuple[Thing, ...]
+    liquid: Thing, under: tuple[Thing, ...], volume: float, count: int, spacing: float, matter: tuple[Placed, ...]
 ) -> FloatArray:
     """Return the particles of a puddle as thick as its surface tension makes it, but no thinner than one layer."""
     q = liquid.quantities
@@ -190,14 +191,14 @@ def _puddle(
     layers = max(round(thickness / spacing), 1)
     across = math.ceil(math.sqrt(2 * count / layers)) + 2
     half = across * spacing / 2
-    region = Region(bodies=bodies, clearance=0.5 * spacing - UNEVEN * spacing, level=math.inf)
+    region = Region(matter=matter, clearance=0.5 * spacing - UNEVEN * spacing, level=math.inf)
     low = np.array([x - half, y - half, ground])
     points = lattice(low, np.array([x + half, y + half, ground + (layers - 0.5) * spacing]), spacing)
     points = points[region.admits(points)]
     order = np.argsort(np.hypot(points[:, 0] - x, points[:, 1] - y), kind="stable")[:count]
     chosen = points[order]
     bottom = chosen[chosen[:, 2] < ground + 0.5 * spacing]
-    support = Region(bodies=under, clearance=0.0, level=math.inf).distance(bottom) if len(bottom) else np.zeros(0)
+    support = nearest([placed(thing) for thing in under if thing.shape.geoms], bottom)
     if len(chosen) < count or (np.abs(support - 0.5 * spacing) > UNEVEN * spacing).any():
         area = 1e4 * volume / (layers * spacing)
         raise KnowledgeError(
@@ -209,12 +210,11 @@ def _puddle(
 
 def _soaked(liquid: Thing, sponge: tuple[Thing, ...], count: int) -> FloatArray:
     """Return particles spread evenly through a sponge."""
-    low, high = bounds_of(sponge[0])
-    region = Region(bodies=sponge[:1], clearance=0.0, level=math.inf)
-    step = float(np.prod(high - low) / count) ** (1 / 3)
+    matter = placed(sponge[0])
+    step = float(np.prod(matter.high - matter.low) / count) ** (1 / 3)
     while True:
-        points = lattice(low + step / 2, high, step)
-        points = points[region.distance(points) < 0]
+        points = lattice(matter.low + step / 2, matter.high, step)
+        points = points[matter.distance(points) < 0]
         if len(points) >= count:
             # Every so many, so that no corner is left dry.
             return points[np.linspace(0, len(points) - 1, count).round().astype(np.int64)]
