@@ -9,6 +9,7 @@ import numpy as np
 from prolepsis.engine import mujoco
 from prolepsis.log import Log
 from prolepsis.report.droplets import Droplets, Wet
+from prolepsis.report.framing import corners
 from prolepsis.report.lathe import turned_surface
 from prolepsis.things import BoolArray, FloatArray, Geom, Thing
 
@@ -128,11 +129,11 @@ class Stage:
         forward = np.array([np.cos(tilt) * np.cos(turn), np.cos(tilt) * np.sin(turn), np.sin(tilt)])
         right = np.array([np.sin(turn), -np.cos(turn), 0.0])
         signs = np.stack(np.meshgrid([-1, 1], [-1, 1], [-1, 1]), axis=-1).reshape(8, 3)
-        corners = signs * (high - low) / 2
+        edges = signs * (high - low) / 2
         half = np.tan(np.radians(VIEW_ANGLE / 2))
-        across = np.abs(corners @ right) * self.height / self.width
-        upward = np.abs(corners @ np.cross(right, forward))
-        return float((np.maximum(across, upward) / half - corners @ forward).max())
+        across = np.abs(edges @ right) * self.height / self.width
+        upward = np.abs(edges @ np.cross(right, forward))
+        return float((np.maximum(across, upward) / half - edges @ forward).max())
 
     def _bounds(self, ticks: list[int]) -> tuple[FloatArray, FloatArray]:
         """Return the lower and upper corner of what moves [m]; a few far splinters are left out."""
@@ -145,19 +146,19 @@ class Stage:
             path = self.log.poses[seen, i, :3]
             vessel = self._droplets.present and self._is_vessel(i)
             if float(np.ptp(path, axis=0).max()) > MOVED or self._appears[i] or vessel:
-                size = min(_radius(thing), 0.15)
-                (bits if self._appears[i] else places).extend([path - size, path + size])
+                reached = corners(thing, self.log.poses[seen, i])
+                (bits if self._appears[i] else places).append(reached)
         bits.extend(self._droplets.at_large(ticks))
         if not places and not bits:
             shown = [i for i, thing in enumerate(self.log.things) if thing.shape.geoms and not thing.fixed]
             path = self.log.poses[0, shown or [0], :3]
             places = [path - 0.1, path + 0.1]
-        corners = [
+        ends = [
             np.percentile(np.concatenate(group), (cut, 100.0 - cut), axis=0)
             for group, cut in ((places, 1.0), (bits, 15.0))
             if group
         ]
-        return np.min(corners, axis=(0, 1)), np.max(corners, axis=(0, 1))
+        return np.min(ends, axis=(0, 1)), np.max(ends, axis=(0, 1))
 
     def _is_vessel(self, i: int) -> bool:
         """Return whether a thing is an open container: not an egg, whose shell is its own."""
@@ -209,25 +210,6 @@ def _drawn_size(geom: Geom) -> tuple[float, float, float]:
     if geom.type == "plane":
         return (geom.size[0] or 20.0, geom.size[1] or 20.0, 0.05)
     return geom.size
-
-
-def _radius(thing: Thing) -> float:
-    """Return a radius [m] that holds the thing's geoms, planes left out."""
-    return max(
-        (
-            float(np.linalg.norm(geom.position))
-            + (
-                float(np.linalg.norm(geom.vertices, axis=1).max())
-                if geom.type == "mesh"
-                else sum(geom.size[:2])
-                if geom.type in ("capsule", "cylinder")
-                else max(geom.size)
-            )
-            for geom in thing.shape.geoms
-            if geom.type != "plane"
-        ),
-        default=0.0,
-    )
 
 
 def _dress(spec: Any, width: int, height: int) -> None:
