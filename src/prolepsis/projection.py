@@ -13,7 +13,7 @@ from prolepsis.errors import InputError, LogError, ScenarioError, UnknownNameErr
 from prolepsis.log import Log
 from prolepsis.log_files import read_log_files, write_log_files
 from prolepsis.saved import read_timeline_files, write_timeline_files
-from prolepsis.scenario import Parameter, Scenario
+from prolepsis.scenario import DEFAULT_PARTICLES, Parameter, Scenario
 from prolepsis.scene.scene import Scene
 from prolepsis.sealed import check_replaceable, read_sealed, to_json, write_sealed
 from prolepsis.terms import Value, format_value, parse_term
@@ -117,7 +117,7 @@ def project(
     from prolepsis.scene import compile_world, compose
     from prolepsis.simulation import simulate
 
-    scene = compose(knowledge)
+    scene = compose(knowledge, particles=read.particles)
     check_units(read.plan, {name: each.unit for name, each in read.parameters.items()})
     program = read_program(read.bound_plan(), scene)
     tell("building the world")
@@ -170,6 +170,7 @@ def _scenario_row(scenario: Scenario, situation: list[str]) -> dict[str, Any]:
         "duration": scenario.duration,
         "seed": scenario.seed,
         "draw": scenario.draw,
+        "particles": scenario.particles,
         "monitors": {name: list(chosen) for name, chosen in scenario.monitors.items()},
     }
 
@@ -189,5 +190,6 @@ def _scenario(row: dict[str, Any], path: Path) -> Scenario:
         duration=row["duration"],
         seed=row["seed"],
         draw=row.get("draw", False),
+        particles=row.get("particles", DEFAULT_PARTICLES),
         monitors={name: tuple(chosen) for name, chosen in row.get("monitors", {}).items()},
     )

@@ -22,6 +22,11 @@ from prolepsis.units import read_quantity, si_symbol, to_si, unit_of
 
 Number = StrictInt | StrictFloat
 
+DEFAULT_PARTICLES = 2000
+"""Particles of the largest liquid, if nothing is said: some 5 mm apart in a cup."""
+FEWEST_PARTICLES, MOST_PARTICLES = 20, 200_000
+"""Fewer are no liquid; more would take gigabytes of log, and days."""
+
 
 class _ParameterTable(BaseModel):
     """``{ value = 20, unit = "N" }``."""
@@ -40,6 +45,7 @@ class _ScenarioFile(BaseModel):
     duration: Number | None = None
     seed: Annotated[StrictInt, Field(ge=0)] = 0
     draw: StrictBool = False
+    particles: StrictInt = DEFAULT_PARTICLES
     robot: StrictStr | None = None
     parameters: dict[str, Number | StrictStr | _ParameterTable] = {}
     knowledge: dict[str, bool | Number | StrictStr] = {}
@@ -78,6 +84,8 @@ class Scenario:
     """Seed of every random draw."""
     draw: bool = False
     """Whether uncertain strengths are drawn from their distributions; if not, each is its mean."""
+    particles: int = DEFAULT_PARTICLES
+    """Number of particles of the largest liquid; those of the others are as large."""
     monitors: Mapping[str, tuple[str, ...]] = field(default_factory=dict[str, "tuple[str, ...]"])
     """What is logged of a thing instead of the usual, ``{"egg1": ("load", "speed")}``."""
 
@@ -86,6 +94,10 @@ class Scenario:
         if self.duration is not None and not (math.isfinite(self.duration) and self.duration > 0.0):
             raise ScenarioError(
                 f"{self.path}: duration must be a finite number of seconds greater than 0, not {self.duration:g}"
+            )
+        if not FEWEST_PARTICLES <= self.particles <= MOST_PARTICLES:
+            raise ScenarioError(
+                f"{self.path}: particles = {self.particles}: allowed: {FEWEST_PARTICLES} to {MOST_PARTICLES}"
             )
         for name, parameter in self.parameters.items():
             if isinstance(parameter.value, float) and not math.isfinite(parameter.value):
@@ -135,18 +147,19 @@ class Scenario:
             duration=None if content.duration is None else float(content.duration),
             seed=content.seed,
             draw=content.draw,
+            particles=content.particles,
             monitors={n: tuple(names) for n, names in content.monitors.items()},
         )
         return scenario.with_settings(settings or {})
 
     def with_settings(self, settings: Mapping[str, str | float]) -> Scenario:
-        """Return the scenario with other values of parameters or of the knowledge base.
+        """Return the scenario with other values of parameters, of the knowledge base, or of ``particles``.
 
         Raises:
             UnknownNameError: If a setting names no parameter.
             ScenarioError: If a value has the wrong unit.
         """
-        parameters, knowledge = dict(self.parameters), dict(self.knowledge)
+        parameters, knowledge, particles = dict(self.parameters), dict(self.knowledge), self.particles
         for name, value in settings.items():
             if "." in name:
                 knowledge[name] = _plain(value)
@@ -154,10 +167,13 @@ class Scenario:
             match = [known for known in parameters if known == name] or [
                 known for known in parameters if known.lower() == name.lower()
             ]
+            if not match and name == "particles":
+                particles = _whole(value, f"{self.path}: particles = {value}")
+                continue
             if len(match) != 1:
                 raise UnknownNameError.of("parameter", name, parameters, where=str(self.path))
             parameters[match[0]] = _setting(value, parameters[match[0]], f"{self.path}: {match[0]} = {value}")
-        return replace(self, parameters=parameters, knowledge=knowledge)
+        return replace(self, parameters=parameters, knowledge=knowledge, particles=particles)
 
     def knowledge_base(self) -> KnowledgeBase:
         """Return the knowledge base of the situation, with this scenario's values.
@@ -273,6 +289,16 @@ def _setting(value: str | float, old: Parameter, where: str) -> Parameter:
     if old.unit is not None and new.unit != old.unit:
         raise ScenarioError(f"{where}: unit {unit!r} does not fit: a unit such as {old.unit!r} is needed")
     return new
+
+
+def _whole(value: str | float, where: str) -> int:
+    try:
+        number = float(value)
+    except ValueError:
+        number = math.nan
+    if not number.is_integer():
+        raise ScenarioError(f"{where}: must be a whole number")
+    return int(number)
 
 
 def _plain(value: bool | float | str) -> float | str:

@@ -11,8 +11,9 @@ from prolepsis.engine import mujoco
 from prolepsis.errors import KnowledgeError
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.robots.hand import HAND
+from prolepsis.scenario import DEFAULT_PARTICLES
 from prolepsis.scene.egg_things import egg_things
-from prolepsis.scene.filling import DEFAULT_PARTICLES, fill
+from prolepsis.scene.filling import fill
 from prolepsis.scene.liquids import is_liquid, liquid_thing, place_of, refuse_idle
 from prolepsis.scene.placing import resting_height
 from prolepsis.scene.scene import Scene

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from prolepsis.errors import KnowledgeError
+from prolepsis.scenario import DEFAULT_PARTICLES, FEWEST_PARTICLES, MOST_PARTICLES
 from prolepsis.scene.basin import Basin, basin_of
 from prolepsis.scene.packing import lattice, lowest, relaxed
 from prolepsis.scene.placed import Placed, nearest, placed
@@ -17,12 +18,6 @@ from prolepsis.scene.region import Region, box_of
 from prolepsis.scene.scene import Pool
 from prolepsis.things import FloatArray, Geom, Shape, Thing
 
-DEFAULT_PARTICLES = 2000
-"""Particles of the largest liquid: some 5 mm for a cup."""
-MOST_PARTICLES = 200_000
-"""Particles of all liquids together: more would take gigabytes of log and days."""
-FEWEST_PARTICLES = 20
-"""Particles of one liquid: fewer are no liquid."""
 FULL = 1.002
 """Volume over capacity [1] up to which rounding may go."""
 GRAVITY = 9.81
