@@ -23,9 +23,10 @@ ACTIONS = (
     "squeeze",
     "tilt",
     "wait",
-    "wipe",
 )
 """Actions that are listed with their events; any other action in a log becomes an event in the same way."""
+ELSEWHERE = frozenset({"wipe"})
+"""Actions whose events have other arguments and a grounding of their own: ``wiping(sponge1, table1)``."""
 
 
 def _listed(action: str) -> Grounding:
@@ -67,7 +68,7 @@ for _action in ACTIONS:
 def action_facts(observation: Observation, action: str | None = None) -> Iterator[Fact]:
     """Yield the events of the log's actions called ``action``, or of those that are not listed."""
     for done in observation.log.actions:
-        if done.term.functor != action and (action is not None or done.term.functor in ACTIONS):
+        if done.term.functor != action and (action is not None or done.term.functor in ELSEWHERE.union(ACTIONS)):
             continue
         args = tuple(argument_of(value) for value in done.term.args)
         stretch = done.start, max(done.end, done.start + 1)
