@@ -18,6 +18,8 @@ RELAXATIONS = 120
 """Steps in which particles that are too close push each other apart: neighbours then differ by some 2 % from it."""
 STRENGTH = 0.35
 """Share of an overlap that one step removes [1]."""
+CLEARINGS = 4
+"""Last steps in which only walls push: out of a wedge, one wall after the other."""
 SETTLED = 0.03
 """Greatest overlap over the spacing [1] with which it ends early."""
 KEPT_STEPS = 12
@@ -82,6 +84,8 @@ def relaxed(points: FloatArray, spacing: float, confine: Callable[[FloatArray], 
             moved[:, axis] += np.bincount(pairs[:, 0], push[:, axis], len(points))
             moved[:, axis] -= np.bincount(pairs[:, 1], push[:, axis], len(points))
         points = confine(moved)
+    for _ in range(CLEARINGS):
+        points = confine(points)
     return points
 
 
