@@ -94,7 +94,7 @@ def contents(observation: Observation) -> tuple[Content, ...]:
     candidates = [shape for shape in shapes if _may_be_content(observation, shape)]
     by_container: dict[int, list[RigidShape]] = {}
     for shape in shapes:
-        if len(shape.solids) > 1:
+        if shape.is_hollow:
             unit = int(observation.unit[shape.body])
             by_container.setdefault(unit, []).append(shape)
     found: list[Content] = []
@@ -127,7 +127,7 @@ def _may_be_content(observation: Observation, shape: RigidShape) -> bool:
     unit = int(observation.unit[shape.body])
     thing = observation.log.things[shape.body]
     mounted = observation.has_role(unit, "Mounted") or is_held_from_outside(observation, unit)
-    return shape.body == unit and not thing.fixed and not mounted
+    return bool(shape.solids) and shape.body == unit and not thing.fixed and not mounted
 
 
 def _borne(observation: Observation, container: int, inside: dict[int, list[Depths]]) -> list[Content]:

@@ -109,7 +109,7 @@ class _Viewer:
         observation = self.observation
         known = observation.of(cavities)
         if id(self.hollow) not in known:
-            known[id(self.hollow)] = cavity_of(self.hollow.solids)
+            known[id(self.hollow)] = cavity_of(self.hollow.matter)
         cavity = known[id(self.hollow)]
         pose, host = observation.log.poses[ticks, self.shape.body], observation.log.poses[ticks, self.hollow.body]
         up = rotate_back(host[:, 3:], observation.up)
@@ -156,11 +156,11 @@ def _distinct(up: FloatArray, local: FloatArray, step: float) -> Iterator[tuple[
 def _between_bounds(
     observation: Observation, hollow: RigidShape, shape: RigidShape, middle: FloatArray, ticks: IntArray
 ) -> BoolArray:
-    """Return whether the body's middle is within the box around the container's solids, at each of some ticks."""
-    bounds = [solid.bounds() for solid in hollow.solids]
-    low, high = np.min([b[0] for b in bounds], axis=0), np.max([b[1] for b in bounds], axis=0)
+    """Return whether the body's middle is within the box around the container, at each of some ticks."""
+    low, high = hollow.bounds()
     place = _relative(observation, hollow.body, shape, middle, ticks)
-    return ((place > low) & (place < high)).all(axis=1)
+    inside: BoolArray = np.all((place > low) & (place < high), axis=1, keepdims=False)
+    return inside
 
 
 def _relative(

@@ -6,10 +6,52 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from prolepsis.fields.cavity import Matter
 from prolepsis.fields.solids import Solid, bounded, matrix
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.rigid import multiply, rotate_back
-from prolepsis.things import BoolArray, FloatArray, IntArray
+from prolepsis.things import BoolArray, FloatArray, IntArray, Shape
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class Part:
+    """One thing's shape, placed in the frame of the body that carries it."""
+
+    shape: Shape
+    """The shape in the thing's own frame."""
+    shift: FloatArray
+    """Origin of the thing's frame in the body's [m], shape (3,)."""
+    turn: FloatArray
+    """Rotation from the thing's frame to the body's, shape (3, 3)."""
+    solids: tuple[Solid, ...]
+    """Its convex solids, in the body's frame."""
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether the shape says more than its convex solids do."""
+        return bool(self.shape.profile) or self.shape.surface is not None
+
+    def bounds(self) -> tuple[FloatArray, FloatArray]:
+        """Return the least and greatest coordinates in the body's frame [m], each of shape (3,)."""
+        if self.shape.profile:
+            outline = np.array(self.shape.profile)
+            wide, low, high = outline[:, 0].max(), outline[:, 1].min(), outline[:, 1].max()
+            sides = ((-wide, wide), (-wide, wide), (low, high))
+            corners = np.stack(np.meshgrid(*sides), axis=-1).reshape(-1, 3)
+        elif self.shape.surface is not None:
+            corners = np.array(self.shape.surface.vertices)
+        else:
+            corners = np.concatenate([np.stack(solid.bounds()) for solid in self.solids])
+            return corners.min(axis=0), corners.max(axis=0)
+        placed = corners @ self.turn.T + self.shift
+        return placed.min(axis=0), placed.max(axis=0)
+
+    def distance(self, points: FloatArray, /) -> FloatArray:
+        """Return the signed distance of points in the body's frame to the exact shape [m], (N, 3) to (N,)."""
+        # Imported here: a log without exact shapes is recognized without the library that makes their fields fast.
+        from prolepsis.fields.signed_distance import field_of
+
+        return field_of(self.shape).distance((points - self.shift) @ self.turn)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -20,8 +62,25 @@ class RigidShape:
     """Index of the thing that is the body."""
     solids: tuple[Solid, ...]
     """Its convex solids, in the body's frame."""
+    parts: tuple[Part, ...]
+    """The shapes that it consists of."""
     during: BoolArray
     """When it is so, shape (T,)."""
+
+    @property
+    def matter(self) -> tuple[Matter, ...]:
+        """What it takes up space with: exact shapes, and the convex solids of others."""
+        return tuple(m for part in self.parts for m in ((part,) if part.is_exact else part.solids))
+
+    @property
+    def is_hollow(self) -> bool:
+        """Whether it may have depressions: one convex solid has none."""
+        return len(self.solids) > 1 or any(part.is_exact for part in self.parts)
+
+    def bounds(self) -> tuple[FloatArray, FloatArray]:
+        """Return the least and greatest coordinates in the body's frame [m], each of shape (3,)."""
+        several = [part.bounds() for part in self.parts]
+        return np.min([low for low, _ in several], axis=0), np.max([high for _, high in several], axis=0)
 
 
 def rigid_shapes(observation: Observation) -> tuple[RigidShape, ...]:
@@ -33,11 +92,12 @@ def rigid_shapes(observation: Observation) -> tuple[RigidShape, ...]:
             found.setdefault((body, _carried(observation, body, np.flatnonzero(carrier == body))), []).append(segment)
     shapes: list[RigidShape] = []
     for (body, parts), segments in found.items():
-        solids = _solids(observation, body, parts, int(observation.segments[segments[0]]))
-        if solids:
+        placed = _parts(observation, body, parts, int(observation.segments[segments[0]]))
+        if placed:
             held = np.zeros(len(observation.segments), dtype=np.bool_)
             held[segments] = True
-            shapes.append(RigidShape(body=body, solids=solids, during=observation.spread(held)))
+            solids = tuple(solid for part in placed for solid in part.solids)
+            shapes.append(RigidShape(body=body, solids=solids, parts=placed, during=observation.spread(held)))
     return tuple(shapes)
 
 
@@ -50,18 +110,20 @@ def _carried(observation: Observation, body: int, candidates: IntArray) -> tuple
     )
 
 
-def _solids(observation: Observation, body: int, parts: tuple[int, ...], tick: int) -> tuple[Solid, ...]:
+def _parts(observation: Observation, body: int, parts: tuple[int, ...], tick: int) -> tuple[Part, ...]:
     pose = observation.log.poses[tick, body]
-    found: list[Solid] = []
+    found: list[Part] = []
     for part in parts:
-        solids = bounded(observation.log.things[part].shape)
-        if part == body:
-            found += solids
-            continue
-        here = observation.log.poses[tick, part]
-        shift = rotate_back(pose[3:], here[:3] - pose[:3])
-        turn = matrix(multiply(pose[3:] * np.array([1.0, -1.0, -1.0, -1.0]), here[3:]))
-        found += [_placed(solid, shift, turn) for solid in solids]
+        shape = observation.log.things[part].shape
+        solids = bounded(shape)
+        shift, turn = np.zeros(3), np.eye(3)
+        if part != body:
+            here = observation.log.poses[tick, part]
+            shift = rotate_back(pose[3:], here[:3] - pose[:3])
+            turn = matrix(multiply(pose[3:] * np.array([1.0, -1.0, -1.0, -1.0]), here[3:]))
+            solids = tuple(_placed(solid, shift, turn) for solid in solids)
+        if solids or shape.profile or shape.surface is not None:
+            found.append(Part(shape=shape, shift=shift, turn=turn, solids=solids))
     return tuple(found)
 
 

@@ -110,6 +110,78 @@ chronicle(dropping(Hand, Object), HoldEnd-FallEnd) :-
          OtherStart < FallStart,
          OtherEnd > HoldEnd+Slack ).
 
+%!  chronicle(pouringTo(?From, ?Liquid, ?To), -Interval) is nondet.
+%
+%   Liquid flows over the rim of From, which is tilted, and some of it comes from there to To. From the
+%   beginning of the outflow until the stream ends: the outflow, or what arrives at To.
+
+chronicle(pouringTo(From, Liquid, To), Start-End) :-
+    over_rim(From, Liquid, Start-OutEnd),
+    tilt(From, Liquid, Start-OutEnd, Tilt),
+    upright(Limit),
+    Tilt > Limit,
+    longest_fall(Fall),
+    findall(To-Last,
+            ( occurs(flowingOnto(Liquid, To), First-Last),
+              evidence(flowingOnto(Liquid, To), First-Last, source, From),
+              Last > Start,
+              First =< OutEnd+Fall ),
+            Arrivals),
+    setof(Last, member(To-Last, Arrivals), Ends),
+    last(Ends, ArrivalEnd),
+    End is max(OutEnd, ArrivalEnd).
+
+%!  chronicle(overflowing(?Container, ?Liquid), -Interval) is nondet.
+%
+%   Liquid flows over the rim of Container, which is full, upright, and not just being moved.
+
+chronicle(overflowing(Container, Liquid), Start-End) :-
+    over_rim(Container, Liquid, Start-End),
+    tilt(Container, Liquid, Start-End, Tilt),
+    upright(Limit),
+    Tilt =< Limit,
+    evidence(flowingOut(Container, Liquid), Start-End, fill, Fill),
+    full(Least),
+    Fill >= Least,
+    \+ ( occurs(moving(Container), MoveStart-MoveEnd), MoveStart =< Start, MoveEnd > Start ).
+
+%!  chronicle(leaking(?Container, ?Liquid), -Interval) is nondet.
+%
+%   A noticeable part of Liquid flows out of Container through a hole.
+
+chronicle(leaking(Container, Liquid), Interval) :-
+    occurs(flowingOut(Container, Liquid), Interval),
+    evidence(flowingOut(Container, Liquid), Interval, through_holes, Share),
+    evidence(flowingOut(Container, Liquid), Interval, fraction, Fraction),
+    noticeable(Least),
+    Share*Fraction >= Least.
+
+%   over_rim(?Container, ?Liquid, ?Interval): most of what flows out takes the way over the rim.
+
+over_rim(Container, Liquid, Interval) :-
+    occurs(flowingOut(Container, Liquid), Interval),
+    evidence(flowingOut(Container, Liquid), Interval, over_rim, Share),
+    Share >= 0.5.
+
+tilt(Container, Liquid, Interval, Tilt) :-
+    evidence(flowingOut(Container, Liquid), Interval, tilt, Tilt).
+
+%   Greatest tilt of what stands upright [rad]: 10 degrees.
+
+upright(0.1745).
+
+%   Least fill of what is full [1]: particles pack less tightly at walls, and slosh.
+
+full(0.9).
+
+%   Longest fall of a stream [s]: from 1.2 m.
+
+longest_fall(0.5).
+
+%   Fraction of a stuff that is noticed [1]; a test compares it with that of recognition.
+
+noticeable(0.02).
+
 %   hold(?Hand, ?Object, -Start, -End, -LetGo): Hand holds Object, not by a joint, and touches it until LetGo.
 
 hold(Hand, Object, Start, End, LetGo) :-

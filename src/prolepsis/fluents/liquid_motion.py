@@ -1,0 +1,80 @@
+"""``moving`` and ``falling`` of liquids made of particles: when most of the mass does so."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from prolepsis.fluents.intervals import debounce, ticks_of
+from prolepsis.fluents.observation import Observation
+from prolepsis.fluents.particle_places import Places, places
+from prolepsis.fluents.registry import event
+from prolepsis.log import FREE, PARKED
+from prolepsis.things import BoolArray, FloatArray
+from prolepsis.timeline import Fact
+
+FLOWING_SPEED = 0.02
+"""Speed of a particle that flows [m/s]."""
+FLOWING_WINDOW = 0.1
+"""Time over which that speed is taken [s]; what jitters in place gets nowhere."""
+FALLING_SPEED = 0.3
+"""Downward speed of a particle that falls and touches nothing [m/s], that after 5 mm."""
+MOST = 0.5
+"""Share of a liquid's mass [1] that must move or fall for the liquid to do so."""
+PAUSE = 0.1
+"""Gap in what a liquid does that is not noticed [s]."""
+LEAST = 0.05
+"""Shortest time that a liquid is seen to do something [s]."""
+
+
+@event("moving", "o")
+def moving_liquid(observation: Observation) -> Iterator[Fact]:
+    """The thing gets somewhere or turns, faster than 1 cm/s; jitter in place is no motion."""
+    seen = observation.of(places)
+    if seen is not None:
+        moving = observation.of(particle_speeds) > FLOWING_SPEED
+        yield from _mostly(observation, seen, "moving", moving & (seen.particles.holder != PARKED))
+
+
+@event("falling", "o")
+def falling_liquid(observation: Observation) -> Iterator[Fact]:
+    """Nothing bears the thing and it goes down freely, from the loss of its support until it lands."""
+    seen = observation.of(places)
+    if seen is not None:
+        in_air = (seen.manner == 0) & (seen.particles.holder == FREE)
+        for inside in seen.inside:
+            in_air &= ~inside.hollow
+        sinking = -observation.of(particle_climbs) > FALLING_SPEED
+        yield from _mostly(observation, seen, "falling", in_air & sinking)
+
+
+def particle_speeds(observation: Observation) -> FloatArray:
+    """Return how fast each particle gets on over ``FLOWING_WINDOW`` round each frame [m/s], shape (F, P)."""
+    way, time = _ways(observation)
+    return np.sqrt(np.einsum("fpc,fpc->fp", way, way)) / time[:, None]
+
+
+def particle_climbs(observation: Observation) -> FloatArray:
+    """Return how fast each particle rises over ``FLOWING_WINDOW`` round each frame [m/s], shape (F, P)."""
+    way, time = _ways(observation)
+    return (way @ observation.up) / time[:, None]
+
+
+def _ways(observation: Observation) -> tuple[FloatArray, FloatArray]:
+    particles = observation.log.particles
+    tick, position = particles.tick, particles.position
+    half = ticks_of(FLOWING_WINDOW / 2, observation.dt)
+    first = np.maximum(np.searchsorted(tick, tick - half, side="right") - 1, 0)
+    last = np.minimum(np.searchsorted(tick, tick + half), len(tick) - 1)
+    time = np.maximum((tick[last] - tick[first]) * observation.dt, 1e-9)
+    way = (position[last] - position[first]).astype(np.float64)
+    return way, time
+
+
+def _mostly(observation: Observation, seen: Places, type: str, mask: BoolArray) -> Iterator[Fact]:
+    for stuff in seen.stuffs():
+        fraction = seen.at_ticks(seen.fraction(mask, stuff), observation.tick_count)
+        for start, end in debounce(fraction >= MOST, observation.dt, gap=PAUSE, least=LEAST):
+            evidence = {"fraction": float(fraction[start:end].max())}
+            yield observation.fact("event", type, (observation.unit_names[stuff],), (start, end), evidence)

@@ -1,0 +1,244 @@
+"""Where each particle of a liquid is in each frame: in whose cavity, on which surface, held by what, or in the air.
+
+All that is said of liquids follows from this. Particles in a cavity are looked at in the frame of its container, so
+what is carried along stays inside; all others are looked at for the surfaces that they touch.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from prolepsis.fluents.observation import Observation, is_held_from_outside
+from prolepsis.fluents.rigid import rotate, rotate_back
+from prolepsis.fluents.shapes_in_time import Part, RigidShape, rigid_shapes
+from prolepsis.log import FREE, Particles
+from prolepsis.things import BoolArray, FloatArray, IntArray
+
+SURFACE_TOLERANCE = 0.75
+"""How far above the spill level the centre of a particle may be whose foot is in the pool [spacings]: half a particle,
+and a quarter for the bulge of a brimful surface."""
+TOUCH_REACH = 0.75
+"""Greatest distance of a particle's centre from a surface that it touches [spacings]; at rest it is a half."""
+LEVEL_COSINE = 0.7
+"""Least upward part of a surface's normal [1] for what touches it to lie on it: up to 45 degrees of slope. Down a
+steeper wall it runs."""
+RESTING_SPEED = 0.1
+"""Speed relative to a surface [m/s] below which a liquid rests on it: a puddle that still spreads slowly does, a sheet
+that runs off does not."""
+NEIGHBOURS = 1.2
+"""Greatest distance of neighbours in a liquid [spacings]."""
+
+Bits = npt.NDArray[np.uint8]
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class Inside:
+    """Which particles are in the cavities of one unit."""
+
+    unit: int
+    """The container."""
+    pool: BoolArray
+    """Below the spill level, so that they could not leave at rest, shape (F, P)."""
+    hollow: BoolArray
+    """Within the hollow, be it that they run along its wall or fall through its air, or in the pool, shape (F, P)."""
+    near: BoolArray
+    """In the hollow or so near that they have not left it yet, shape (F, P)."""
+    depth: npt.NDArray[np.float32]
+    """How far below the spill level those of the pool are [m], shape (F, P)."""
+    brim: FloatArray
+    """Height of the spill level in each frame, holes plugged [m], world frame, shape (F,); NaN where there is none."""
+    capacity: Mapping[int, Callable[[], float]]
+    """Gives the volume up to the spill level in a frame, holes plugged [m^3]: it is not asked for often."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class Places:
+    """All particles in all frames."""
+
+    particles: Particles
+    """As logged."""
+    share: FloatArray
+    """Share of each particle in the mass of its stuff [1], shape (P,)."""
+    inside: tuple[Inside, ...]
+    """Containers, the smallest first."""
+    manner: Bits
+    """How particles that are in no pool touch a surface: 0 not at all, 1 beside a wall, 2 on top, 3 resting; (F, P)."""
+    on: npt.NDArray[np.int16]
+    """Which unit they touch so, shape (F, P)."""
+
+    def stuffs(self) -> list[int]:
+        """Return the indices of the liquids."""
+        return sorted(set(self.particles.stuff.tolist()))
+
+    def fraction(self, mask: npt.NDArray[Any], stuff: int) -> FloatArray:
+        """Return the share of a stuff's mass that a mask or weight, shape (F, P), covers in each frame, shape (F,)."""
+        chosen = self.particles.stuff == stuff
+        # A sum of all shares may exceed one by rounding.
+        return np.minimum(mask[:, chosen] @ self.share[chosen], 1.0)
+
+    def volume(self, stuff: int) -> float:
+        """Return the volume of all of a stuff [m^3]."""
+        return float(self.particles.volume[self.particles.stuff == stuff].sum())
+
+    def mass(self, stuff: int) -> float:
+        """Return the mass of all of a stuff [kg]."""
+        return float(self.particles.mass[self.particles.stuff == stuff].sum())
+
+    def at_ticks(self, series: FloatArray, tick_count: int) -> FloatArray:
+        """Return values given for each frame at each tick: a frame speaks until the next one."""
+        frame = np.searchsorted(self.particles.tick, np.arange(tick_count), side="right") - 1
+        return series[np.maximum(frame, 0)]
+
+
+def places(observation: Observation) -> Places | None:
+    """Return where the particles of a log are, or None if it has none."""
+    particles = observation.log.particles
+    if not len(particles.tick) or not len(particles.stuff):
+        return None
+    mass = np.zeros(len(observation.log.things))
+    np.add.at(mass, particles.stuff, particles.mass)
+    share = particles.mass / np.maximum(mass[particles.stuff], 1e-300)
+    loose = particles.holder == FREE
+    inside = _inside(observation, particles, loose)
+    manner, on = _touching(observation, particles, loose, inside)
+    return Places(particles=particles, share=share, inside=inside, manner=manner, on=on)
+
+
+def _inside(observation: Observation, particles: Particles, loose: BoolArray) -> tuple[Inside, ...]:
+    found: dict[int, tuple[float, Inside]] = {}
+    for shape in observation.of(rigid_shapes):
+        unit = int(observation.unit[shape.body])
+        if not shape.is_hollow or is_held_from_outside(observation, unit):
+            continue
+        low, high = shape.bounds()
+        frames = np.flatnonzero(shape.during[particles.tick])
+        if not len(frames) or not _comes_near(observation, particles, loose, shape, low, high):
+            continue
+        seen = _seen_inside(observation, particles, loose, shape, frames)
+        if seen is None:
+            continue
+        size = float(np.prod(high - low))
+        known = found.get(unit)
+        found[unit] = (size, seen) if known is None else (max(size, known[0]), _joined(known[1], seen))
+    return tuple(inside for _, inside in sorted(found.values(), key=lambda pair: pair[0]))
+
+
+def _joined(one: Inside, other: Inside) -> Inside:
+    return Inside(
+        unit=one.unit,
+        pool=one.pool | other.pool,
+        hollow=one.hollow | other.hollow,
+        near=one.near | other.near,
+        depth=np.maximum(one.depth, other.depth),
+        brim=np.fmax(one.brim, other.brim),
+        capacity={**one.capacity, **other.capacity},
+    )
+
+
+def _comes_near(
+    observation: Observation,
+    particles: Particles,
+    loose: BoolArray,
+    shape: RigidShape,
+    low: FloatArray,
+    high: FloatArray,
+) -> bool:
+    """Return whether a particle that flows is ever within the ball round a shape."""
+    pose = observation.log.poses[particles.tick, shape.body]
+    middle = (pose[:, :3] + rotate(pose[:, 3:], (low + high) / 2)).astype(np.float32)
+    way = particles.position - middle[:, None]
+    near = np.einsum("fpc,fpc->fp", way, way) < 0.25 * float(np.square(high - low).sum())
+    return bool((near & loose).any())
+
+
+def _seen_inside(
+    observation: Observation, particles: Particles, loose: BoolArray, shape: RigidShape, frames: IntArray
+) -> Inside | None:
+    # Imported here: logs without particles are recognized without compiled loops.
+    from prolepsis.fluents.kernels.basin import HOLLOW, POOL, ROUND, basin_of, direction_of, key_of
+    from prolepsis.fluents.kernels.matter import assembled
+    from prolepsis.fluents.kernels.places import pool_bits
+
+    low, high = shape.bounds()
+    solids = assembled(shape.parts)
+    plugged = assembled(shape.parts, plugged=True) if any(part.shape.holes for part in shape.parts) else solids
+    basin = basin_of(solids, plugged, low, high, particles.spacing)
+    if not basin.holds:
+        return None
+    poses = np.ascontiguousarray(observation.log.poses[particles.tick, shape.body])
+    keys = key_of(rotate_back(poses[:, 3:], observation.up))
+    bits = np.zeros(loose.shape, dtype=np.uint8)
+    depth = np.zeros(loose.shape, dtype=np.float32)
+    brim = np.full(len(poses), np.nan)
+    capacity: dict[int, Callable[[], float]] = {}
+    for row in np.unique(keys[frames], axis=0).tolist():
+        key: tuple[int, int, int] = (row[0], row[1], row[2])
+        chosen = frames[(keys[frames] == row).all(axis=1)]
+        up = direction_of(key)
+        pool_bits(
+            particles.position, chosen, loose, poses, up, basin.origin, basin.step, basin.distance, basin.pool(key),
+            basin.hollow, basin.round, particles.spacing, SURFACE_TOLERANCE * particles.spacing, bits, depth,
+        )  # fmt: skip
+        closed = basin.pool(key, plugged=plugged is not solids)
+        capacity |= dict.fromkeys(chosen.tolist(), partial(basin.capacity, key))
+        if (closed > -np.inf).any():
+            brim[chosen] = float(closed.max()) + poses[chosen, :3] @ observation.up
+    pool = (bits & POOL) > 0
+    hollow = pool | ((bits & HOLLOW) > 0)
+    unit = int(observation.unit[shape.body])
+    near = hollow | ((bits & ROUND) > 0)
+    return Inside(unit=unit, pool=pool, hollow=hollow, near=near, depth=depth, brim=brim, capacity=capacity)
+
+
+def _touching(
+    observation: Observation, particles: Particles, loose: BoolArray, inside: tuple[Inside, ...]
+) -> tuple[Bits, npt.NDArray[np.int16]]:
+    from prolepsis.fluents.kernels.matter import assembled
+    from prolepsis.fluents.kernels.places import pile_up, touch_surfaces
+
+    spacing = particles.spacing
+    manner = np.zeros(loose.shape, dtype=np.uint8)
+    on = np.full(loose.shape, -1, dtype=np.int16)
+    gap = np.full(loose.shape, np.inf, dtype=np.float32)
+    own = {each.unit: each.hollow for each in inside}
+    free, in_hollow = loose.copy(), np.zeros_like(loose)
+    for each in inside:
+        free &= ~each.pool
+        in_hollow |= each.hollow
+    for shape in (*observation.of(rigid_shapes), *_planes(observation)):
+        unit = int(observation.unit[shape.body])
+        # A film on the inner wall of a vessel is not on it, but in it.
+        look = free & ~own[unit] if unit in own else free.copy()
+        if not shape.during.all():
+            look &= shape.during[particles.tick][:, None]
+        low, high = np.full(3, -np.inf), np.full(3, np.inf)
+        if not any(geom.type == "plane" for part in shape.parts for geom in part.shape.geoms):
+            low, high = shape.bounds()
+        poses = np.ascontiguousarray(observation.log.poses[particles.tick, shape.body])
+        touch_surfaces(
+            particles.position, particles.tick, observation.dt, look, poses, observation.up, assembled(shape.parts),
+            low, high, TOUCH_REACH * spacing, LEVEL_COSINE, RESTING_SPEED, unit, manner, on, gap,
+        )  # fmt: skip
+    free &= (manner > 0) | ~in_hollow
+    pile_up(
+        particles.position, particles.tick, observation.dt, free, observation.up, NEIGHBOURS * spacing, RESTING_SPEED,
+        manner, on,
+    )  # fmt: skip
+    return manner, on
+
+
+def _planes(observation: Observation) -> list[RigidShape]:
+    """Return the shapes that consist of planes only, which end nowhere."""
+    every = np.ones(observation.tick_count, dtype=np.bool_)
+    found: list[RigidShape] = []
+    for i, thing in enumerate(observation.log.things):
+        if thing.shape.geoms and all(geom.type == "plane" for geom in thing.shape.geoms):
+            part = Part(shape=thing.shape, shift=np.zeros(3), turn=np.eye(3), solids=())
+            found.append(RigidShape(body=i, solids=(), parts=(part,), during=every))
+    return found
