@@ -19,8 +19,10 @@ from prolepsis.things import FloatArray
 
 Singles = npt.NDArray[np.float32]
 """Numbers in single precision, where there are very many."""
-Indices = npt.NDArray[np.int32]
-"""Numbers of particles, where there are very many."""
+Indices = npt.NDArray[np.uint32]
+"""Numbers of particles, where there are very many; unsigned, since a kernel looks at the sign of every index else."""
+Counts = npt.NDArray[np.uint64]
+"""Places in long arrays."""
 
 SUPPORT = 2.0
 """Support radius of the kernel [spacings]."""

@@ -11,9 +11,9 @@ from __future__ import annotations
 import numpy as np
 from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
-from prolepsis.liquid.kernel import Indices, Singles
+from prolepsis.liquid.kernel import Counts, Indices, Singles
 from prolepsis.liquid.walls import REST_DISTANCE, Contacts
-from prolepsis.things import FloatArray, IntArray
+from prolepsis.things import FloatArray
 
 CORRECTION = 0.2
 """Share of a compression that one step takes back [1]."""
@@ -27,7 +27,8 @@ GREATEST_CORRECTION = 0.02
 def solve_pressure(
     velocity: FloatArray,
     inverse_mass: FloatArray,
-    start: IntArray,
+    start: Counts,
+    end: Counts,
     other: Indices,
     gradient: Singles,
     steepness: FloatArray,
@@ -46,13 +47,14 @@ def solve_pressure(
     Args:
         velocity: [m/s], shape (n, 3).
         inverse_mass: [1/kg], shape (n,).
-        start: First neighbour of each particle, shape (n + 1,).
+        start: First neighbour of each particle, shape (n,).
+        end: The one after its last, shape (n,).
         other: Neighbours.
         gradient: Volume times gradient of the kernel for each neighbour [1/m].
         steepness: Gradient of each particle's kernel sum, walls included [1/m], shape (n, 3).
         density: Kernel sum with walls and air [1], shape (n,).
         contacts: What each particle sees of the walls.
-        impulse: Pressure impulses; in: first guess, out: result [N s m], shape (n,).
+        impulse: Pressure impulses; in: first guess, which the velocities contain, out: result [N s m], shape (n,).
         push: Impulses of the walls' surfaces, out [N s], shape (n, SEEN).
         spacing: [m].
         dt: [s].
@@ -75,14 +77,14 @@ def solve_pressure(
             sy -= slope * normal[1]
             sz -= slope * normal[2]
         own[i, 0], own[i, 1], own[i, 2] = sx, sy, sz
-        for p in range(start[i], start[i + 1]):
+        for p in range(start[i], end[i]):
             gx, gy, gz = gradient[p, 0], gradient[p, 1], gradient[p, 2]
             diagonal += (gx * gx + gy * gy + gz * gz) * inverse_mass[other[p]]
         inverse[i] = 1.0 / max(diagonal, 1e-300)
         excess = density[i] - 1.0
-        wanted[i] = (min(CORRECTION * excess, GREATEST_CORRECTION) if excess > 0.0 else excess) / dt
-        if kappa > 0.0:
-            _apply(i, kappa, velocity, inverse_mass, start, other, gradient, steepness)
+        # A gap may close at once; in a liquid under pressure it does so as gently as a compression opens.
+        share = CORRECTION if excess > 0.0 or kappa > 0.0 else 1.0
+        wanted[i] = min(share * excess, GREATEST_CORRECTION) / dt
     negligible = NEGLIGIBLE * tolerance / dt
     sweep, error = 0, 0.0
     while sweep < most_sweeps:
@@ -91,7 +93,7 @@ def solve_pressure(
             i = step if sweep % 2 == 0 else n - 1 - step
             vx, vy, vz = velocity[i, 0], velocity[i, 1], velocity[i, 2]
             residual = wanted[i] + own[i, 0] * vx + own[i, 1] * vy + own[i, 2] * vz
-            for p in range(start[i], start[i + 1]):
+            for p in range(start[i], end[i]):
                 j = other[p]
                 residual -= (
                     gradient[p, 0] * velocity[j, 0] + gradient[p, 1] * velocity[j, 1] + gradient[p, 2] * velocity[j, 2]
@@ -107,7 +109,7 @@ def solve_pressure(
             # Rows that are good enough need not disturb their neighbours.
             if abs(residual) > negligible and change != 0.0:
                 impulse[i] += change
-                _apply(i, change, velocity, inverse_mass, start, other, gradient, steepness)
+                _apply(i, change, velocity, inverse_mass, start, end, other, gradient, steepness)
             for f in range(seen):
                 gap = contacts.distance[i, f] - least
                 if gap > spacing:
@@ -129,13 +131,31 @@ def solve_pressure(
     return sweep, error
 
 
+@njit(cache=True, fastmath=True)
+def apply_impulses(
+    impulse: FloatArray,
+    velocity: FloatArray,
+    inverse_mass: FloatArray,
+    start: Counts,
+    end: Counts,
+    other: Indices,
+    gradient: Singles,
+    steepness: FloatArray,
+) -> None:
+    """Add to the velocities what the pressure impulses do; arguments as in ``solve_pressure``."""
+    for i in range(len(velocity)):
+        if impulse[i] > 0.0:
+            _apply(i, impulse[i], velocity, inverse_mass, start, end, other, gradient, steepness)
+
+
 @njit(cache=True, fastmath=True, inline="always")
 def _apply(
     i: int,
     kappa: float,
     velocity: FloatArray,
     inverse_mass: FloatArray,
-    start: IntArray,
+    start: Counts,
+    end: Counts,
     other: Indices,
     gradient: Singles,
     steepness: FloatArray,
@@ -144,7 +164,7 @@ def _apply(
     velocity[i, 0] -= own * steepness[i, 0]
     velocity[i, 1] -= own * steepness[i, 1]
     velocity[i, 2] -= own * steepness[i, 2]
-    for p in range(start[i], start[i + 1]):
+    for p in range(start[i], end[i]):
         j = other[p]
         theirs = kappa * inverse_mass[j]
         velocity[j, 0] += theirs * gradient[p, 0]

@@ -9,9 +9,9 @@ import numpy as np
 
 from prolepsis.fields.faces import Solids
 from prolepsis.liquid.kernel import SUPPORT, Indices, Singles, pair_table, wall_tables
-from prolepsis.liquid.neighbours import cell_order, find_neighbours
+from prolepsis.liquid.neighbours import find_neighbours, row_order
 from prolepsis.liquid.particles import ParticleState
-from prolepsis.liquid.pressure import solve_pressure
+from prolepsis.liquid.pressure import apply_impulses, solve_pressure
 from prolepsis.liquid.reaction import add_adhesion, add_drag, add_pressure
 from prolepsis.liquid.surface import complete_density
 from prolepsis.liquid.viscosity import solve_viscosity
@@ -22,7 +22,7 @@ COURANT = 0.4
 """Share of a spacing that the fastest particle may go in one step [1]."""
 LONGEST, SHORTEST = 4.0e-3, 1.0e-4
 """Longest and shortest step [s]."""
-MOST_NEIGHBOURS = 80
+MOST_NEIGHBOURS = 64
 """Room for neighbours per particle, doubled when it does not suffice."""
 PRESSURE_TOLERANCE = 1.0e-3
 """Mean compression that a step may leave [1]."""
@@ -47,7 +47,7 @@ class Effort:
     error: float = 0.0
     """Sum over steps of the mean compression that was left [1]."""
     seconds: dict[str, float] = field(default_factory=dict[str, float])
-    """Wall time of each part [s]."""
+    """Processor time of each part [s]."""
 
 
 class Liquid:
@@ -63,15 +63,15 @@ class Liquid:
         self._impulse = np.zeros(count)
         self._viscous = np.zeros((count, 3))
         self._last = 1.0e-3
-        self._room = 0
-        self._grow(MOST_NEIGHBOURS * count)
+        self._grow(MOST_NEIGHBOURS)
         self._contacts = empty_contacts(count)
 
     def _grow(self, room: int) -> None:
         self._room = room
-        self._other: Indices = np.zeros(room, dtype=np.int32)
-        self._gradient: Singles = np.zeros((room, 3), dtype=np.float32)
-        self._drag: Singles = np.zeros(room, dtype=np.float32)
+        size = room * len(self.particles.mass)
+        self._other: Indices = np.zeros(size, dtype=np.uint32)
+        self._gradient: Singles = np.zeros((size, 3), dtype=np.float32)
+        self._drag: Singles = np.zeros(size, dtype=np.float32)
 
     def next_step(self) -> float:
         """Return the longest step that the fastest free particle allows [s]."""
@@ -102,25 +102,22 @@ class Liquid:
         if not len(free):
             return reaction
         clock = _Clock(self.effort)
-        order, cells, row, layer = cell_order(p.position[free], SUPPORT * spacing)
+        order, rows, layer = row_order(p.position[free], SUPPORT * spacing)
         ids = free[order]
         n = len(ids)
         x, v, mass = p.position[ids], p.velocity[ids], p.mass[ids]
         strength = p.tension[ids] * spacing / tables.surface_energy
         wetting, viscosity = p.wetting[ids], p.viscosity[ids]
-        start = np.zeros(n + 1, dtype=np.int64)
+        start, end = np.zeros(n, dtype=np.uint64), np.zeros(n, dtype=np.uint64)
         density, steepness, force = np.zeros(n), np.zeros((n, 3)), np.zeros((n, 3))
         side = np.zeros((n, 4))
         contacts = self._contacts
         find_walls(x, spacing, solids, bodies, tables.share, tables.share_slope, contacts, side)
         clock.lap("walls")
-        while True:
-            found = find_neighbours(
-                x, cells, row, layer, spacing, side, pair_table(), start, self._other, self._gradient, self._drag,
-                density, steepness, strength, force,
-            )  # fmt: skip
-            if found >= 0:
-                break
+        while not find_neighbours(
+            x, rows, layer, spacing, side, pair_table(), self._room, start, end, self._other, self._gradient,
+            self._drag, density, steepness, strength, force,
+        ):  # fmt: skip
             self._grow(2 * self._room)
             force[:] = 0.0
         clock.lap("neighbours")
@@ -128,19 +125,21 @@ class Liquid:
         complete_density(contacts, density, steepness, tables.share, tables.share_slope, spacing)
         v += dt * (self._gravity + force / mass[:, None])
         clock.lap("attraction")
+        impulse = self._impulse[ids] * (dt / self._last)
+        # Before viscosity, or what the last pressures do wrong at single particles would never be damped.
+        apply_impulses(impulse, v, 1.0 / mass, start, end, self._other, self._gradient, steepness)
         guess = self._viscous[ids] * (dt / self._last)
         slip = np.zeros((n, SEEN))
         self.effort.iterations += solve_viscosity(
-            v, guess, mass, viscosity, start, self._other, self._gradient, self._drag, contacts, tables.drag, spacing,
+            v, guess, mass, viscosity, start, end, self._other, self._gradient, self._drag, contacts, tables.drag, spacing,
             dt, VISCOUS_TOLERANCE, VISCOUS_ITERATIONS, slip,
         )  # fmt: skip
         add_drag(contacts, v, slip, x, reaction)
         self._viscous[ids] = guess
         clock.lap("viscosity")
-        impulse = self._impulse[ids] * (dt / self._last)
         push = np.zeros((n, SEEN))
         sweeps, error = solve_pressure(
-            v, 1.0 / mass, start, self._other, self._gradient, steepness, density, contacts, impulse, push, spacing,
+            v, 1.0 / mass, start, end, self._other, self._gradient, steepness, density, contacts, impulse, push, spacing,
             dt, PRESSURE_TOLERANCE, *PRESSURE_SWEEPS,
         )  # fmt: skip
         self._impulse[ids] = impulse
@@ -158,13 +157,13 @@ class Liquid:
 
 
 class _Clock:
-    """Adds the wall time between laps to an effort."""
+    """Adds the processor time between laps to an effort."""
 
     def __init__(self, effort: Effort) -> None:
         self._seconds = effort.seconds
-        self._then = time.perf_counter()
+        self._then = time.thread_time()
 
     def lap(self, part: str) -> None:
-        now = time.perf_counter()
+        now = time.thread_time()
         self._seconds[part] = self._seconds.get(part, 0.0) + now - self._then
         self._then = now

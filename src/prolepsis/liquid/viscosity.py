@@ -11,9 +11,9 @@ from __future__ import annotations
 import numpy as np
 from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
-from prolepsis.liquid.kernel import Indices, Singles
+from prolepsis.liquid.kernel import Counts, Indices, Singles
 from prolepsis.liquid.walls import Contacts, read_table
-from prolepsis.things import FloatArray, IntArray
+from prolepsis.things import FloatArray
 
 GENTLE = 0.1
 """Relative change of a velocity below which viscosity needs no iterations [1]."""
@@ -25,7 +25,8 @@ def solve_viscosity(
     guess: FloatArray,
     mass: FloatArray,
     viscosity: FloatArray,
-    start: IntArray,
+    start: Counts,
+    end: Counts,
     other: Indices,
     gradient: Singles,
     drag: Singles,
@@ -44,7 +45,8 @@ def solve_viscosity(
         guess: First guess of the change [m/s], shape (n, 3).
         mass: [kg], shape (n,).
         viscosity: [Pa s], shape (n,).
-        start: First neighbour of each particle, shape (n + 1,).
+        start: First neighbour of each particle, shape (n,).
+        end: The one after its last, shape (n,).
         other: Neighbours.
         gradient: Volume times gradient of the kernel for each neighbour [1/m].
         drag: Factor of the pair force for each neighbour.
@@ -61,12 +63,12 @@ def solve_viscosity(
     right = np.zeros((n, 3))
     diagonal = np.zeros((n, 3))
     # Factor of (v . g) g of each pair, with the time step in it.
-    factor = np.zeros(start[n])
+    factor = np.zeros(len(other), dtype=np.float32)
     for i in range(n):
         for c in range(3):
             right[i, c] = mass[i] * velocity[i, c]
             diagonal[i, c] = mass[i]
-        for p in range(start[i], start[i + 1]):
+        for p in range(start[i], end[i]):
             j = other[p]
             both = viscosity[i] + viscosity[j]
             mean = 2.0 * viscosity[i] * viscosity[j] / both if both > 0.0 else 0.0
@@ -88,7 +90,7 @@ def solve_viscosity(
     gentle = stiffest < 1.0 + GENTLE
     found = velocity + guess
     product = np.zeros((n, 3))
-    _multiply(found, mass, start, other, gradient, factor, contacts, slip, product)
+    _multiply(found, mass, start, end, other, gradient, factor, contacts, slip, product)
     residual = right - product
     if gentle:
         # One Jacobi step is exact enough where viscosity changes the velocities by a few percent.
@@ -108,7 +110,7 @@ def solve_viscosity(
     limit = tolerance * tolerance * scale
     iteration = 0
     while iteration < most and size > limit:
-        _multiply(direction, mass, start, other, gradient, factor, contacts, slip, product)
+        _multiply(direction, mass, start, end, other, gradient, factor, contacts, slip, product)
         curvature = 0.0
         for i in range(n):
             for c in range(3):
@@ -138,7 +140,8 @@ def solve_viscosity(
 def _multiply(
     vector: FloatArray,
     mass: FloatArray,
-    start: IntArray,
+    start: Counts,
+    end: Counts,
     other: Indices,
     gradient: Singles,
     factor: FloatArray,
@@ -149,7 +152,7 @@ def _multiply(
     for i in range(len(vector)):
         x, y, z = vector[i, 0], vector[i, 1], vector[i, 2]
         sx, sy, sz = mass[i] * x, mass[i] * y, mass[i] * z
-        for p in range(start[i], start[i + 1]):
+        for p in range(start[i], end[i]):
             j = other[p]
             gx, gy, gz = gradient[p, 0], gradient[p, 1], gradient[p, 2]
             along = factor[p] * (gx * (x - vector[j, 0]) + gy * (y - vector[j, 1]) + gz * (z - vector[j, 2]))

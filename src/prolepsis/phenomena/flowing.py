@@ -89,7 +89,7 @@ class Flowing(Phenomenon):
         # A body that is light against the liquid would shake under a force that answers its own last motion.
         mass = state.model.body_mass[self._walls.ids]
         free = self.liquid.particles.mass[self.liquid.particles.holder == FREE].sum()
-        share = (mass / (mass + free))[:, None]
+        share = (mass / np.maximum(mass + free, 1e-12))[:, None]
         self._force += share * (force - self._force)
 
     def _push(self, state: State) -> None:
