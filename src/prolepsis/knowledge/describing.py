@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from prolepsis.errors import UnknownNameError
-from prolepsis.knowledge.vocabulary import CERTAINTIES, ClassEntry, Property
+from prolepsis.knowledge.vocabulary import CERTAINTIES, ClassEntry, Curve, Property
 
 if TYPE_CHECKING:
     from prolepsis.knowledge.knowledge_base import KnowledgeBase
@@ -54,8 +54,17 @@ def _class_lines(base: KnowledgeBase, entry: ClassEntry) -> list[str]:
                 f"  {default.property} = {_shown(default.value)}{spread} {unit}".rstrip()
                 + f" ({default.certainty}, {CERTAINTIES[default.certainty]}: {default.source}{given})"
             )
+        lines += [_curve_line(base, curve) for curve in base.vocabulary.classes[class_name].curves]
     lines += [f"  corresponds to: {iri}" for iri in entry.alignments]
     return lines
+
+
+def _curve_line(base: KnowledgeBase, curve: Curve) -> str:
+    properties = base.vocabulary.properties
+    unit, over = properties[curve.property].si_unit, properties[curve.over].si_unit
+    points = ", ".join(f"{value:g} at {at:g} {over}" for at, value in curve.points)
+    known = f"{curve.certainty}, {CERTAINTIES[curve.certainty]}: {curve.source}"
+    return f"  {curve.property} by {curve.over} = {points} [{unit}] ({known})"
 
 
 def _property_lines(entry: Property) -> list[str]:
