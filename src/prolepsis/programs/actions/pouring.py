@@ -22,13 +22,23 @@ from prolepsis.things import FloatArray, Thing
 
 LEVEL = 0.05
 """The hand's forward and left axes may rise by this much and still count as level [1]."""
+FARTHEST = 0.5
+"""Greatest height of the lip, and its greatest offset [m]: farther away nobody pours."""
 APPROACH_SPEED, APPROACH_ACCELERATION = 0.4, 1.5
 """With which the vessel is carried over the other [m/s, m/s^2]: a cup that is not full to the brim does not spill."""
 
 
-def _can_pour(scene: Scene, *, hand: Thing, source: Thing, target: Thing, **_: object) -> None:
-    """Refuse a pouring that has no lip, no target or no level axis to turn about."""
+def _can_pour(
+    scene: Scene, *, hand: Thing, source: Thing, target: Thing, height: float, offset: float, **_: object
+) -> None:
+    """Refuse a pouring that has no lip, no target, no sensible place or no level axis to turn about."""
     del scene
+    if not 0.0 <= height <= FARTHEST:
+        raise PlanError(f"plan: height {height:g} m of pour, allowed 0 to {FARTHEST:g} m")
+    if abs(offset) > FARTHEST:
+        raise PlanError(
+            f"plan: offset {offset:g} m of pour, allowed up to {FARTHEST:g} m; other units need a parameter"
+        )
     if source.name == target.name:
         raise PlanError(f"plan: {source.name} cannot be poured into itself")
     for thing in (source, target):
