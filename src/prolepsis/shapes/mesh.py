@@ -16,6 +16,8 @@ CONCAVITY = 0.05
 """Depth of a hollow that pieces may cover [share of the mesh's extent]: a cup's cavity is cut free."""
 SEED = 1
 """The search for cuts is random; the same seed finds the same."""
+SEARCH = {"mcts_nodes": 10, "mcts_iterations": 40, "mcts_max_depth": 2, "resolution": 600}
+"""Effort of the search: a quarter of the library's usual time, and no more pieces."""
 MOST_CORNERS = 64
 """Vertices of one convex piece."""
 
@@ -41,7 +43,7 @@ def mesh(path: Path, scale: float) -> Shape:
 def convex_pieces(surface: Surface) -> tuple[tuple[tuple[float, float, float], ...], ...]:
     """Return the vertices of convex pieces whose union is nearly the body within a surface [m]."""
     vertices, triangles = np.array(surface.vertices, dtype=np.float64), np.array(surface.triangles, dtype=np.int64)
-    settings = np.array([CONCAVITY, SEED, MOST_CORNERS])
+    settings = np.array([CONCAVITY, SEED, MOST_CORNERS, *SEARCH.values()])
     rows = kept_array("pieces", (vertices, triangles, settings), lambda: _cut(vertices, triangles))
     return tuple(
         tuple((float(x), float(y), float(z)) for _, x, y, z in rows[rows[:, 0] == k])
@@ -59,9 +61,9 @@ def _cut(vertices: FloatArray, triangles: Any) -> FloatArray:
         library.Mesh(vertices, triangles),
         threshold=CONCAVITY,
         preprocess_mode="off",
-        decimate=True,
         max_ch_vertex=MOST_CORNERS,
         seed=SEED,
+        **SEARCH,
     )
     if not pieces:
         raise RuntimeError("no piece was found")
