@@ -33,6 +33,8 @@ class ParticleState:
     """Surface tension [N/m], shape (P,)."""
     wetting: FloatArray
     """Cosine of the contact angle on walls [1], shape (P,)."""
+    pinning: FloatArray
+    """How much the cosine of the contact angle may rise before an edge draws back [1], shape (P,)."""
     spacing: float
     """Distance of neighbours at rest [m]."""
 

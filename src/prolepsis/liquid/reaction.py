@@ -1,11 +1,18 @@
-"""What the liquid does to the walls: impulses and their moments, face by face; and adhesion to them."""
+"""Between liquid and walls: adhesion, pinned edges, and what the walls get back, face by face."""
 
 from __future__ import annotations
+
+import math
 
 from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
 from prolepsis.liquid.walls import Contacts, read_table
 from prolepsis.things import FloatArray
+
+TOUCHING = 0.8
+"""Distance of a particle's centre up to which it lies on a wall [spacings]."""
+ALONE, LAYER = 0.318, 0.70
+"""Kernel sum of a particle alone, and of one within a single layer on a square lattice [1]."""
 
 
 @njit(cache=True)
@@ -34,6 +41,65 @@ def add_adhesion(
             pull *= 0.5 * (1.0 + wetting[i]) * strength[i] * contacts.weight[i, f]
             for c in range(3):
                 force[i, c] -= pull * contacts.normal[i, f, c]
+
+
+@njit(cache=True)
+def pin_edges(
+    contacts: Contacts,
+    velocity: FloatArray,
+    mass: FloatArray,
+    tension: FloatArray,
+    pinning: FloatArray,
+    density: FloatArray,
+    position: FloatArray,
+    spacing: float,
+    dt: float,
+    bodies: FloatArray,
+) -> None:
+    """Slow down what slides along a wall at the edge of a liquid, up to a stop: an edge of water holds on.
+
+    A particle alone is a drop as wide as a spacing; one that is surrounded in its layer has no edge.
+
+    Args:
+        contacts: What each particle sees of the walls.
+        velocity: [m/s], changed, shape (n, 3).
+        mass: [kg], shape (n,).
+        tension: Surface tension [N/m], shape (n,).
+        pinning: Range of the cosine of the contact angle [1], shape (n,).
+        density: Kernel sum over the liquid alone [1], shape (n,).
+        position: [m], shape (n, 3).
+        spacing: [m].
+        dt: [s].
+        bodies: As in ``add_pressure``.
+
+    Source:
+        Furmidge, Journal of Colloid Science 17:309 (1962): a drop of width w is held by gamma w times that range.
+    """
+    for i in range(len(velocity)):
+        if contacts.seen[i] == 0 or contacts.distance[i, 0] > TOUCHING * spacing:
+            continue
+        edge = min(max((LAYER - density[i]) / (LAYER - ALONE), 0.0), 1.0)
+        normal, wall = contacts.normal[i, 0], contacts.velocity[i, 0]
+        x, y, z = velocity[i, 0] - wall[0], velocity[i, 1] - wall[1], velocity[i, 2] - wall[2]
+        into = x * normal[0] + y * normal[1] + z * normal[2]
+        x, y, z = x - into * normal[0], y - into * normal[1], z - into * normal[2]
+        speed = math.sqrt(x * x + y * y + z * z)
+        held = min(tension[i] * pinning[i] * spacing * edge * dt / mass[i], speed)
+        if held <= 0.0:
+            continue
+        x, y, z = x * held / speed, y * held / speed, z * held / speed
+        velocity[i, 0] -= x
+        velocity[i, 1] -= y
+        velocity[i, 2] -= z
+        _add(
+            bodies[contacts.body[i, 0]],
+            position[i],
+            normal,
+            contacts.distance[i, 0],
+            mass[i] * x,
+            mass[i] * y,
+            mass[i] * z,
+        )
 
 
 @njit(cache=True)

@@ -12,7 +12,7 @@ from prolepsis.liquid.kernel import SUPPORT, Indices, Singles, pair_table, wall_
 from prolepsis.liquid.neighbours import find_neighbours, row_order
 from prolepsis.liquid.particles import ParticleState
 from prolepsis.liquid.pressure import apply_impulses, solve_pressure
-from prolepsis.liquid.reaction import add_adhesion, add_drag, add_pressure
+from prolepsis.liquid.reaction import add_adhesion, add_drag, add_pressure, pin_edges
 from prolepsis.liquid.surface import complete_density
 from prolepsis.liquid.viscosity import solve_viscosity
 from prolepsis.liquid.walls import SEEN, Bodies, empty_contacts, find_walls, keep_outside
@@ -121,6 +121,7 @@ class Liquid:
             self._grow(2 * self._room)
             force[:] = 0.0
         clock.lap("neighbours")
+        alone = density.copy()
         add_adhesion(contacts, strength, wetting, tables.pull, spacing, force)
         complete_density(contacts, density, steepness, tables.share, tables.share_slope, spacing)
         v += dt * (self._gravity + force / mass[:, None])
@@ -131,21 +132,22 @@ class Liquid:
         guess = self._viscous[ids] * (dt / self._last)
         slip = np.zeros((n, SEEN))
         self.effort.iterations += solve_viscosity(
-            v, guess, mass, viscosity, start, end, self._other, self._gradient, self._drag, contacts, tables.drag, spacing,
-            dt, VISCOUS_TOLERANCE, VISCOUS_ITERATIONS, slip,
+            v, guess, mass, viscosity, start, end, self._other, self._gradient, self._drag, contacts, tables.drag,
+            spacing, dt, VISCOUS_TOLERANCE, VISCOUS_ITERATIONS, slip,
         )  # fmt: skip
         add_drag(contacts, v, slip, x, reaction)
         self._viscous[ids] = guess
         clock.lap("viscosity")
         push = np.zeros((n, SEEN))
         sweeps, error = solve_pressure(
-            v, 1.0 / mass, start, end, self._other, self._gradient, steepness, density, contacts, impulse, push, spacing,
-            dt, PRESSURE_TOLERANCE, *PRESSURE_SWEEPS,
+            v, 1.0 / mass, start, end, self._other, self._gradient, steepness, density, contacts, impulse, push,
+            spacing, dt, PRESSURE_TOLERANCE, *PRESSURE_SWEEPS,
         )  # fmt: skip
         self._impulse[ids] = impulse
         self.effort.sweeps += sweeps
         self.effort.error += error
         clock.lap("pressure")
+        pin_edges(contacts, v, mass, p.tension[ids], p.pinning[ids], alone, x, spacing, dt, reaction)
         add_pressure(contacts, impulse, push, strength, wetting, tables.pull, spacing, dt, x, reaction)
         x += dt * v
         keep_outside(x, v, contacts, spacing, solids, after, dt)

@@ -63,7 +63,7 @@ def solve_viscosity(
     right = np.zeros((n, 3))
     diagonal = np.zeros((n, 3))
     # Factor of (v . g) g of each pair, with the time step in it.
-    factor = np.zeros(len(other), dtype=np.float32)
+    factor: Singles = np.zeros(len(other), dtype=np.float32)
     for i in range(n):
         for c in range(3):
             right[i, c] = mass[i] * velocity[i, c]
@@ -144,7 +144,7 @@ def _multiply(
     end: Counts,
     other: Indices,
     gradient: Singles,
-    factor: FloatArray,
+    factor: Singles,
     contacts: Contacts,
     slip: FloatArray,
     product: FloatArray,

@@ -121,6 +121,8 @@ def _particles(state: State) -> ParticleState:
         q = thing.quantities
         volume = q["volume"] / count
         holder = names[pool.holder] if pool.holder is not None else FREE
+        advancing = q.get("contactAngle", math.pi / 2)
+        receding = min(q.get("recedingAngle", advancing), advancing)
         row = [
             names[pool.stuff],
             holder,
@@ -128,7 +130,8 @@ def _particles(state: State) -> ParticleState:
             volume,
             q["viscosity"],
             q.get("surfaceTension", 0.0),
-            math.cos(q.get("contactAngle", math.pi / 2)),
+            math.cos(advancing),
+            math.cos(receding) - math.cos(advancing),
         ]
         columns.append(np.tile(np.array(row), (count, 1)))
         places.append(np.asarray(pool.position, dtype=np.float64).reshape(-1, 3))
@@ -144,5 +147,6 @@ def _particles(state: State) -> ParticleState:
         viscosity=table[:, 4].copy(),
         tension=table[:, 5].copy(),
         wetting=table[:, 6].copy(),
+        pinning=table[:, 7].copy(),
         spacing=scene.pools[0].spacing,
     )
