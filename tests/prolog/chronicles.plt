@@ -151,3 +151,54 @@ test(are_found_in_the_other_spelling, Count == 1) :-
     lifted(Rows), answers(Rows, E, eventT(E, 'PickingUp'), Events), length(Events, Count).
 
 :- end_tests(chronicles).
+
+:- begin_tests(liquids).
+
+%   What flows out of a cup that is being tilted, and where it arrives.
+
+poured(To, Source, Rows) :-
+    Rows = [ event(flowingOut(cup1, liq1), 2.0, 4.0),
+             proof(fraction, 0.9), proof(over_rim, 1.0), proof(through_holes, 0.0), proof(tilt, 1.5), proof(fill, 0.6),
+             event(flowingOnto(liq1, To), 2.2, 4.3),
+             proof(fraction, 0.9), proof(source, Source) ].
+
+happened(Rows, Events) :-
+    answers(Rows, Event-T, ( occurs(Event, T), functor(Event, Name, Arity), chronicle_name(Name, Arity) ), Events).
+
+test(poured_from_cup_to_cup, Events == [pouringTo(cup1, liq1, cup2)-(2.0-4.3)]) :-
+    poured(cup2, cup1, Rows), happened(Rows, Events).
+test(what_comes_from_elsewhere_was_not_poured, Events == []) :-
+    poured(cup2, tap1, Rows), happened(Rows, Events).
+test(what_runs_over_the_second_cup_was_not_poured_to_the_table, Events == [pouringTo(cup1, liq1, cup2)-(2.0-4.3)]) :-
+    poured(cup2, cup1, Rows),
+    append(Rows, [ event(flowingOnto(liq1, table1), 3.0, 5.0), proof(source, cup2) ], More),
+    happened(More, Events).
+test(the_stream_ends_with_the_outflow_or_the_arrival, Events == [pouringTo(cup1, liq1, cup2)-(2.0-4.0)]) :-
+    happened([ event(flowingOut(cup1, liq1), 2.0, 4.0), proof(over_rim, 1.0), proof(tilt, 0.5),
+               event(flowingOnto(liq1, cup2), 2.2, 3.3), proof(source, cup1) ], Events).
+test(an_arrival_long_after_is_another_matter, Events == []) :-
+    happened([ event(flowingOut(cup1, liq1), 2.0, 4.0), proof(over_rim, 1.0), proof(tilt, 0.5),
+               event(flowingOnto(liq1, cup2), 6.0, 7.0), proof(source, cup1) ], Events).
+test(an_upright_cup_that_leaks_does_not_pour, Events == [leaking(cup1, liq1)-(2.0-4.0)]) :-
+    happened([ event(flowingOut(cup1, liq1), 2.0, 4.0), proof(fraction, 0.5), proof(over_rim, 0.1),
+               proof(through_holes, 0.9), proof(tilt, 0.0), proof(fill, 0.5),
+               event(flowingOnto(liq1, table1), 2.2, 4.3), proof(source, cup1) ], Events).
+test(a_few_drops_through_a_hole_are_no_leak, Events == []) :-
+    happened([ event(flowingOut(cup1, liq1), 2.0, 4.0), proof(fraction, 0.1), proof(over_rim, 0.9),
+               proof(through_holes, 0.1), proof(tilt, 0.0), proof(fill, 0.5) ], Events).
+
+overflown(Fill, Tilt, [ event(flowingOut(cup2, liq2), 2.0, 4.0), proof(fraction, 0.5), proof(over_rim, 1.0),
+                        proof(through_holes, 0.0), proof(tilt, Tilt), proof(fill, Fill) ]).
+
+test(a_full_cup_overflows, Events == [overflowing(cup2, liq2)-(2.0-4.0)]) :-
+    overflown(0.97, 0.01, Rows), happened(Rows, Events).
+test(what_slops_out_of_a_half_full_cup_does_not_overflow, Events == []) :-
+    overflown(0.6, 0.01, Rows), happened(Rows, Events).
+test(a_tilted_cup_does_not_overflow, Events == []) :-
+    overflown(0.97, 0.5, Rows), happened(Rows, Events).
+test(a_full_cup_that_is_jerked_does_not_overflow, Events == []) :-
+    overflown(0.97, 0.01, Rows), happened([event(moving(cup2), 1.9, 2.5)|Rows], Events).
+test(a_cup_that_is_taken_away_later_had_overflown, Events == [overflowing(cup2, liq2)-(2.0-4.0)]) :-
+    overflown(0.97, 0.01, Rows), append(Rows, [event(moving(cup2), 5.0, 6.0)], More), happened(More, Events).
+
+:- end_tests(liquids).
