@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from prolepsis.log import Particles
+from prolepsis.particle_tables import rounded
 from prolepsis.state import State
 
 PERIOD = 20
@@ -27,7 +28,7 @@ class Frames:
         if state.particles is None or tick % PERIOD:
             return
         self.ticks.append(tick)
-        self.positions.append(state.particles.position.astype(np.float32))
+        self.positions.append(rounded(state.particles.position))
         self.holders.append(state.particles.holder.copy())
 
     def columns(self, state: State) -> Particles:
