@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -182,6 +184,25 @@ def matrix(quaternion: FloatArray) -> FloatArray:
             [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
         ]
     )
+
+
+@lru_cache(maxsize=4096)
+def matter_of(geom: Geom) -> float:
+    """Return the volume of a solid that ends somewhere [m^3]."""
+    x, y, z = geom.size
+    if geom.type == "mesh":
+        # Imported here: the import takes longer than a scene without meshes.
+        from scipy import spatial  # pyright: ignore[reportMissingTypeStubs]
+
+        library: Any = spatial
+        return float(library.ConvexHull(np.array(geom.vertices)).volume)
+    return {
+        "sphere": 4 / 3 * math.pi * x**3,
+        "capsule": 4 / 3 * math.pi * x**3 + 2 * math.pi * x**2 * y,
+        "ellipsoid": 4 / 3 * math.pi * x * y * z,
+        "cylinder": 2 * math.pi * x**2 * y,
+        "box": 8 * x * y * z,
+    }[geom.type]
 
 
 def bounded(shape: Shape) -> tuple[Solid, ...]:

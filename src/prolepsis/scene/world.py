@@ -10,6 +10,7 @@ import numpy as np
 
 from prolepsis.engine import mujoco
 from prolepsis.errors import KnowledgeError
+from prolepsis.fields.solids import matter_of
 from prolepsis.robots.hand import HAND
 from prolepsis.scene.scene import Scene
 from prolepsis.things import Thing, Triple
@@ -126,10 +127,18 @@ def add_body(spec: Any, thing: Thing, ranks: Mapping[float, int], *, name: str |
     body = parent.add_body(name=name or thing.name, pos=list(position), quat=list(orientation))
     if not thing.fixed and not thing.name.endswith(("/palm", "_finger")):
         body.add_freejoint(name=name or thing.name)
-    mass = thing.mass / max(len(thing.shape.geoms), 1)
-    for k in range(len(thing.shape.geoms)):
+    for k, mass in enumerate(_masses(thing)):
         add_geom(spec, body, thing, k, ranks, mass=mass)
     return body
+
+
+def _masses(thing: Thing) -> list[float]:
+    """Return the mass of each solid of a thing [kg]: of one material, so by volume."""
+    geoms = thing.shape.geoms
+    if len(geoms) < 2 or thing.fixed or thing.whole is not None:
+        return [thing.mass / max(len(geoms), 1)] * len(geoms)
+    volumes = [matter_of(geom) for geom in geoms]
+    return [thing.mass * volume / sum(volumes) for volume in volumes]
 
 
 def add_geom(
