@@ -29,6 +29,8 @@ class Solids(NamedTuple):
     """Position, then the rotation's rows, in the frame of the body, shape (K, 12)."""
     size: FloatArray
     """MuJoCo's size parameters [m], shape (K, 3)."""
+    bounds: FloatArray
+    """Least and greatest coordinates in the solid's own frame [m], shape (K, 6)."""
     span: IntArray
     """First number and count of the solid's own numbers, first number and count of its holes', shape (K, 4)."""
     numbers: FloatArray
@@ -54,6 +56,16 @@ def faces_of(solids: Solids, k: int, x: float, y: float, z: float, reach: float,
     px = f[3] * dx + f[6] * dy + f[9] * dz
     py = f[4] * dx + f[7] * dy + f[10] * dz
     pz = f[5] * dx + f[8] * dy + f[11] * dz
+    box = solids.bounds[k]
+    if (
+        px < box[0] - reach
+        or px > box[3] + reach
+        or py < box[1] - reach
+        or py > box[4] + reach
+        or pz < box[2] - reach
+        or pz > box[5] + reach
+    ):
+        return 0
     kind = solids.kind[k]
     count = 1
     if kind == PLANE:

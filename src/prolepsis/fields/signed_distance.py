@@ -60,21 +60,36 @@ def field_of(shape: Shape) -> Field:
 def solids_as_arrays(shape: Shape) -> Solids:
     """Return a shape as flat arrays."""
     if shape.profile:
+        outline = np.array(shape.profile)
+        radius, bottom, top = outline[:, 0].max(), outline[:, 1].min(), outline[:, 1].max()
+        bounds = np.array([-radius, -radius, bottom, radius, radius, top])
         holes = [(*hole.position, *hole.direction, hole.radius) for hole in shape.holes]
-        return _joined([(PROFILE, _AT_HOME, (0.0, 0.0, 0.0), np.ravel(shape.profile), np.ravel(holes))])
+        return _joined([(PROFILE, _AT_HOME, np.zeros(3), bounds, outline.ravel(), np.ravel(holes))])
     if shape.surface is not None:
-        return _joined([(GRID, _AT_HOME, (0.0, 0.0, 0.0), grid_of(shape.surface), np.zeros(0))])
+        numbers = grid_of(shape.surface)
+        bounds = np.concatenate([numbers[:3], numbers[:3] + numbers[3] * (numbers[4:7] - 1)])
+        return _joined([(GRID, _AT_HOME, np.zeros(3), bounds, numbers, np.zeros(0))])
     return _joined([_convex(solid_of(geom)) for geom in shape.geoms])
 
 
 _AT_HOME = np.array([0.0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1])
-_Row = tuple[int, FloatArray, Sequence[float], FloatArray, FloatArray]
+_Row = tuple[int, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]
+"""Kind, frame, size, bounds, numbers and holes of one solid."""
 
 
 def _convex(solid: Solid) -> _Row:
     numbers = np.zeros(0) if solid.type != "mesh" else hull_planes(solid.corners)
     frame = np.concatenate([solid.position, solid.rotation.ravel()])
-    return (PRIMITIVES[solid.type], frame, [float(v) for v in solid.size], np.ravel(numbers), np.zeros(0))
+    corners = solid.corners
+    bounds = np.concatenate([corners.min(axis=0), corners.max(axis=0)])
+    if solid.type == "plane":
+        bounds = np.array([-np.inf, -np.inf, -np.inf, np.inf, np.inf, 0.0])
+    elif solid.type == "capsule":
+        bounds = np.array([-1.0, -1, -1, 1, 1, 1]) * solid.size[0] + np.array([0.0, 0, -1, 0, 0, 1]) * solid.size[1]
+    elif solid.type in ("cylinder", "sphere"):
+        size = solid.size[[0, 0, 1]] if solid.type == "cylinder" else np.full(3, solid.size[0])
+        bounds = np.concatenate([-size, size])
+    return (PRIMITIVES[solid.type], frame, solid.size, bounds, np.ravel(numbers), np.zeros(0))
 
 
 def _joined(rows: Sequence[_Row]) -> Solids:
@@ -89,6 +104,7 @@ def _joined(rows: Sequence[_Row]) -> Solids:
         kind=np.array([row[0] for row in rows], dtype=np.int64),
         frame=np.array([row[1] for row in rows], dtype=np.float64).reshape(-1, 12),
         size=np.array([row[2] for row in rows], dtype=np.float64).reshape(-1, 3),
+        bounds=np.array([row[3] for row in rows], dtype=np.float64).reshape(-1, 6),
         span=np.array(spans, dtype=np.int64).reshape(-1, 4),
         numbers=np.concatenate([np.zeros(0), *numbers]),
     )
@@ -128,6 +144,7 @@ def union_of(parts: Sequence[Solids]) -> Solids:
         kind=np.concatenate([part.kind for part in parts]),
         frame=np.concatenate([part.frame for part in parts]),
         size=np.concatenate([part.size for part in parts]),
+        bounds=np.concatenate([part.bounds for part in parts]),
         span=np.concatenate(spans),
         numbers=np.concatenate([part.numbers for part in parts]),
     )
