@@ -13,7 +13,8 @@ from prolepsis.errors import InputError, LogError, ScenarioError, UnknownNameErr
 from prolepsis.log import Log
 from prolepsis.log_files import read_log_files, write_log_files
 from prolepsis.saved import read_timeline_files, write_timeline_files
-from prolepsis.scenario import DEFAULT_PARTICLES, Parameter, Scenario
+from prolepsis.scenario import Parameter, Scenario
+from prolepsis.scenario_file import DEFAULT_PARTICLES
 from prolepsis.scene.scene import Scene
 from prolepsis.sealed import check_replaceable, read_sealed, to_json, write_sealed
 from prolepsis.terms import Value, format_value, parse_term

@@ -6,50 +6,18 @@ A scenario file is TOML; it is checked here, at the edge, and is a frozen value 
 from __future__ import annotations
 
 import math
-import re
-import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Annotated, Any
-
-from pydantic import BaseModel, ConfigDict, Field, StrictBool, StrictFloat, StrictInt, StrictStr, ValidationError
 
 from prolepsis.errors import InputError, PlanError, ScenarioError, UnknownNameError
 from prolepsis.knowledge import KnowledgeBase
+from prolepsis.scenario_file import DEFAULT_PARTICLES, ParameterTable, read_file
 from prolepsis.terms import Term, Value, Variable, parse_term
 from prolepsis.units import read_quantity, si_symbol, to_si, unit_of
 
-Number = StrictInt | StrictFloat
-
-DEFAULT_PARTICLES = 2000
-"""Particles of the largest liquid, if nothing is said: some 5 mm apart in a cup."""
 FEWEST_PARTICLES, MOST_PARTICLES = 20, 200_000
 """Fewer are no liquid; more would take gigabytes of log, and days."""
-
-
-class _ParameterTable(BaseModel):
-    """``{ value = 20, unit = "N" }``."""
-
-    model_config = ConfigDict(extra="forbid")
-    value: Number
-    unit: StrictStr = "1"
-
-
-class _ScenarioFile(BaseModel):
-    """The keys of a scenario file."""
-
-    model_config = ConfigDict(extra="forbid")
-    situation: StrictStr | Annotated[list[StrictStr], Field(min_length=1)]
-    plan: StrictStr
-    duration: Number | None = None
-    seed: Annotated[StrictInt, Field(ge=0)] = 0
-    draw: StrictBool = False
-    particles: StrictInt = DEFAULT_PARTICLES
-    robot: StrictStr | None = None
-    parameters: dict[str, Number | StrictStr | _ParameterTable] = {}
-    knowledge: dict[str, bool | Number | StrictStr] = {}
-    monitors: dict[str, list[StrictStr]] = {}
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +99,7 @@ class Scenario:
             UnknownNameError: If a setting names no parameter.
         """
         path = Path(path)
-        content = _read(path)
+        content = read_file(path)
         files = [content.situation] if isinstance(content.situation, str) else content.situation
         situation = tuple(path.parent / name for name in files)
         for file in situation:
@@ -217,24 +185,6 @@ def bind(value: Value, values: Mapping[str, float | str]) -> Value:
     return value
 
 
-def _read(path: Path) -> _ScenarioFile:
-    try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise ScenarioError(f"{path}: cannot read the scenario: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise ScenarioError(f"{path}: the scenario is not UTF-8 text") from error
-    except tomllib.TOMLDecodeError as error:
-        message = str(error)
-        line = re.search(r"at line (\d+)", message)
-        place = f"{path}:{line.group(1)}" if line else str(path)
-        raise ScenarioError(f"{place}: TOML syntax: {message}") from error
-    try:
-        return _ScenarioFile.model_validate(table)
-    except ValidationError as error:
-        raise ScenarioError(f"{path}: {_first_problem(error, table)}") from error
-
-
 def _plan(text: str, path: Path) -> Value:
     try:
         return parse_term(text, where=f"{path}: plan")
@@ -242,27 +192,8 @@ def _plan(text: str, path: Path) -> Value:
         raise PlanError(str(error)) from error
 
 
-def _first_problem(error: ValidationError, table: Mapping[str, Any]) -> str:
-    problem = error.errors(include_url=False)[0]
-    keys = [str(key) for key in problem["loc"]]
-    if problem["type"] == "extra_forbidden" and len(keys) == 1:
-        return f"unknown key {keys[0]!r}; known: {', '.join(_ScenarioFile.model_fields)}"
-    if problem["type"] == "missing" and len(keys) == 1:
-        return f"the key {keys[0]!r} is missing; needed: situation, plan"
-    if keys[0] == "parameters" and len(keys) > 1:
-        return f'parameter {keys[1]}: give a number, the name of an individual, or {{ value = 20, unit = "N" }}'
-    if keys[0] == "knowledge" and len(keys) > 1:
-        return f'knowledge: {keys[1]}: give a number, a text or true/false; write the name in quotes, "egg1.mass"'
-    if keys[0] == "monitors" and len(keys) > 1:
-        return f'monitors: {keys[1]}: give a list of names, such as ["load", "speed"]'
-    given: object = table.get(keys[0])
-    if keys[0] == "draw":
-        return f"draw = {given!r}: must be true or false"
-    return f"{keys[0]} = {given!r}: {problem['msg'].lower()}"
-
-
-def _parameter(value: float | str | _ParameterTable, where: str) -> Parameter:
-    if isinstance(value, _ParameterTable):
+def _parameter(value: float | str | ParameterTable, where: str) -> Parameter:
+    if isinstance(value, ParameterTable):
         return _quantity(float(value.value), value.unit, where)
     if isinstance(value, str):
         read = read_quantity(value)

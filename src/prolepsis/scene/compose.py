@@ -11,12 +11,11 @@ from prolepsis.engine import mujoco
 from prolepsis.errors import KnowledgeError
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.robots.hand import HAND
-from prolepsis.scenario import DEFAULT_PARTICLES
+from prolepsis.scenario_file import DEFAULT_PARTICLES
 from prolepsis.scene.egg_things import egg_things
-from prolepsis.scene.filling import fill
 from prolepsis.scene.liquids import is_liquid, liquid_thing, place_of, refuse_idle
 from prolepsis.scene.placing import resting_height
-from prolepsis.scene.scene import Scene
+from prolepsis.scene.scene import Pool, Scene
 from prolepsis.scene.world import HIDDEN_ROLES
 from prolepsis.shapes import SHAPES
 from prolepsis.shapes.holes import refuse_holes
@@ -83,10 +82,15 @@ def compose(kb: KnowledgeBase, *, particles: int = DEFAULT_PARTICLES) -> Scene:
     made: dict[str, tuple[Thing, ...]] = {}
     for name in _supporters_first(wholes, below):
         made[name] = _things_of(kb, name, made, below.get(name))
-    flowing = [liquid_thing(kb, name, _roles(kb, name)) for name in liquids]
-    solids = {name: tuple(t for t in made[name] if not t.roles & HIDDEN_ROLES) for name in wholes}
-    flowing, pools = fill(flowing, places, solids, particles)
-    made |= {each.name: (each,) for each in flowing}
+    pools: tuple[Pool, ...] = ()
+    if liquids:
+        # The import takes longer than a scene without liquids.
+        from prolepsis.scene.filling import fill
+
+        flowing = [liquid_thing(kb, name, _roles(kb, name)) for name in liquids]
+        solids = {name: tuple(t for t in made[name] if not t.roles & HIDDEN_ROLES) for name in wholes}
+        filled, pools = fill(flowing, places, solids, particles)
+        made |= {each.name: (each,) for each in filled}
     return Scene(things=tuple(thing for name in names for thing in made[name]), domain=kb.domain(), pools=pools)
 
 

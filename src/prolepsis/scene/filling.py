@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from prolepsis.errors import KnowledgeError
-from prolepsis.scenario import DEFAULT_PARTICLES, FEWEST_PARTICLES, MOST_PARTICLES
+from prolepsis.scenario import FEWEST_PARTICLES, MOST_PARTICLES
+from prolepsis.scenario_file import DEFAULT_PARTICLES
 from prolepsis.scene.basin import Basin, basin_of
+from prolepsis.scene.liquids import Place
 from prolepsis.scene.packing import lattice, lowest, relaxed
 from prolepsis.scene.placed import Placed, nearest, placed
 from prolepsis.scene.placing import resting_height
@@ -24,16 +26,6 @@ GRAVITY = 9.81
 """[m/s^2], for how thick a puddle is."""
 UNEVEN = 0.25
 """How far from the spacing the ground under a puddle may lie [spacings]."""
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Place:
-    """Where a liquid is at the start."""
-
-    relation: str
-    """``contains``, ``on`` or ``absorbs``."""
-    host: str
-    """The container, what it lies on, or the sponge."""
 
 
 def fill(

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 from prolepsis.errors import KnowledgeError
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
-from prolepsis.scene.filling import Place
 from prolepsis.things import Shape, Thing
 
 RELATIONS = ("contains", "on", "absorbs")
@@ -20,6 +20,16 @@ COLOURS: Mapping[str, tuple[float, float, float, float]] = {
     "Honey": (0.90, 0.58, 0.10, 0.9),
 }
 """Colours of liquids, for pictures only."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Place:
+    """Where a liquid is at the start."""
+
+    relation: str
+    """``contains``, ``on`` or ``absorbs``."""
+    host: str
+    """The container, what it lies on, or the sponge."""
 
 
 def is_liquid(kb: KnowledgeBase, name: str) -> bool:

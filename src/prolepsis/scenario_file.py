@@ -1,0 +1,84 @@
+"""The keys of a scenario file: TOML, checked by name and type where it is read."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Field, StrictBool, StrictFloat, StrictInt, StrictStr, ValidationError
+
+from prolepsis.errors import ScenarioError
+
+Number = StrictInt | StrictFloat
+
+DEFAULT_PARTICLES = 2000
+"""Particles of the largest liquid, if nothing is said: some 5 mm apart in a cup."""
+
+
+class ParameterTable(BaseModel):
+    """``{ value = 20, unit = "N" }``."""
+
+    model_config = ConfigDict(extra="forbid")
+    value: Number
+    unit: StrictStr = "1"
+
+
+class ScenarioFile(BaseModel):
+    """The keys of a scenario file."""
+
+    model_config = ConfigDict(extra="forbid")
+    situation: StrictStr | Annotated[list[StrictStr], Field(min_length=1)]
+    plan: StrictStr
+    duration: Number | None = None
+    seed: Annotated[StrictInt, Field(ge=0)] = 0
+    draw: StrictBool = False
+    particles: StrictInt = DEFAULT_PARTICLES
+    robot: StrictStr | None = None
+    parameters: dict[str, Number | StrictStr | ParameterTable] = {}
+    knowledge: dict[str, bool | Number | StrictStr] = {}
+    monitors: dict[str, list[StrictStr]] = {}
+
+
+def read_file(path: Path) -> ScenarioFile:
+    """Return what a scenario file says.
+
+    Raises:
+        ScenarioError: If it is missing or wrong.
+    """
+    try:
+        table = tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ScenarioError(f"{path}: cannot read the scenario: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise ScenarioError(f"{path}: the scenario is not UTF-8 text") from error
+    except tomllib.TOMLDecodeError as error:
+        message = str(error)
+        line = re.search(r"at line (\d+)", message)
+        place = f"{path}:{line.group(1)}" if line else str(path)
+        raise ScenarioError(f"{place}: TOML syntax: {message}") from error
+    try:
+        return ScenarioFile.model_validate(table)
+    except ValidationError as error:
+        raise ScenarioError(f"{path}: {_first_problem(error, table)}") from error
+
+
+def _first_problem(error: ValidationError, table: Mapping[str, Any]) -> str:
+    problem = error.errors(include_url=False)[0]
+    keys = [str(key) for key in problem["loc"]]
+    if problem["type"] == "extra_forbidden" and len(keys) == 1:
+        return f"unknown key {keys[0]!r}; known: {', '.join(ScenarioFile.model_fields)}"
+    if problem["type"] == "missing" and len(keys) == 1:
+        return f"the key {keys[0]!r} is missing; needed: situation, plan"
+    if keys[0] == "parameters" and len(keys) > 1:
+        return f'parameter {keys[1]}: give a number, the name of an individual, or {{ value = 20, unit = "N" }}'
+    if keys[0] == "knowledge" and len(keys) > 1:
+        return f'knowledge: {keys[1]}: give a number, a text or true/false; write the name in quotes, "egg1.mass"'
+    if keys[0] == "monitors" and len(keys) > 1:
+        return f'monitors: {keys[1]}: give a list of names, such as ["load", "speed"]'
+    given: object = table.get(keys[0])
+    if keys[0] == "draw":
+        return f"draw = {given!r}: must be true or false"
+    return f"{keys[0]} = {given!r}: {problem['msg'].lower()}"
