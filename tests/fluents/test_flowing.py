@@ -138,6 +138,23 @@ def test_a_cup_with_a_hole_leaks() -> None:
     assert not timeline.ask("occurs(overflowing(_, _), _)")
 
 
+def test_a_box_of_boards_with_a_gap_leaks() -> None:
+    def board(size: tuple[float, float, float], position: tuple[float, float, float]) -> Geom:
+        return Geom(type="box", size=size, position=position)
+
+    walls = [board((0.05, 0.05, 0.002), (0, 0, 0.002)), board((0.002, 0.05, 0.04), (-0.048, 0, 0.04))]
+    walls += [board((0.05, 0.002, 0.04), (0, y, 0.04)) for y in (-0.048, 0.048)]
+    walls += [board((0.002, 0.05, 0.017), (0.048, 0, z)) for z in (0.017, 0.063)]
+    box = Thing(name="cup1", kind="Box", shape=Shape(geoms=tuple(walls)), mass=0.1)
+    starts, ends = poured(0.05, 0.07)[:200], puddle(0.15, 0, half=0.03)[:200]
+    below = journey(starts, ends, [(0.04, 0.0, 0.04), (0.06, 0.0, 0.04)])
+    (leak,) = recognize(wet([table(), box], {"liq1": below}, ticks=TICKS)).select(type="flowingOut")
+    assert leak.evidence["through_holes"] == 1.0
+    above = journey(starts, ends, [(0.0, 0.0, 0.076), (0.04, 0.0, 0.084), (0.06, 0.0, 0.08)])
+    (splash,) = recognize(wet([table(), box], {"liq1": above}, ticks=TICKS)).select(type="flowingOut")
+    assert float(splash.evidence["over_rim"]) > 0.9
+
+
 def test_a_carried_cup_keeps_its_liquid_in_one_stretch_and_pours_nothing() -> None:
     points = poured(high=0.05)
     shift = np.linspace(0.0, 0.4, FRAMES)[:, None, None] * np.array([1.0, 0.0, 0.5])

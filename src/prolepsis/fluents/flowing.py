@@ -64,8 +64,8 @@ def flowing_onto(observation: Observation) -> Iterator[Fact]:
         return
     from prolepsis.fluents.kernels.streams import arrivals
 
-    came = arrivals(_whereabouts(seen))
-    at = _whereabouts(seen)
+    at = _whereabouts(observation, seen)
+    came = arrivals(at)
     onto = at[came[:, 0], came[:, 1]]
     units: list[int] = sorted(set(onto.tolist()))
     for unit in units:
@@ -81,14 +81,14 @@ def flowing_onto(observation: Observation) -> Iterator[Fact]:
                 yield observation.fact("event", "flowingOnto", args, (start, end), evidence)
 
 
-def _whereabouts(seen: Places) -> IntArray:
+def _whereabouts(observation: Observation, seen: Places) -> IntArray:
     """Return the unit that each particle is in or on, -1 for none, shape (F, P); of nested vessels the innermost."""
     at = np.where(seen.manner > 0, seen.on, -1).astype(np.int64)
     holder = seen.particles.holder
     for inside in reversed(seen.inside):
         # What already touches something else within an open hollow is with that, unless it is in the pool.
         at[inside.pool | (inside.hollow & (seen.manner == 0))] = inside.unit
-    at[holder >= 0] = holder[holder >= 0]
+    at[holder >= 0] = observation.unit[holder[holder >= 0]]
     at[holder == PARKED] = -1
     return at
 

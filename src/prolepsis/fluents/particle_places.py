@@ -167,7 +167,9 @@ def _seen_inside(
 
     low, high = shape.bounds()
     solids = assembled(shape.parts)
-    plugged = assembled(shape.parts, plugged=True) if any(part.shape.holes for part in shape.parts) else solids
+    plugged = None
+    if all(part.shape.profile for part in shape.parts):
+        plugged = assembled(shape.parts, plugged=True) if any(part.shape.holes for part in shape.parts) else solids
     basin = basin_of(solids, plugged, low, high, particles.spacing)
     if not basin.holds:
         return None

@@ -32,6 +32,8 @@ NEAR = 1.5
 PASS = 1.25
 """Height above an edge at which the grid's way out passes it [grid steps]: the nodes next to the edge are blocked,
 and the way bends round them. Within half a step for cups at all tilts."""
+PLUG = 0.008
+"""Holes of a mesh are not known as such: gaps narrower than twice this [m] count as holes."""
 _MARGIN = 3.0
 _AXES: FloatArray = np.concatenate((np.eye(3), -np.eye(3)))
 
@@ -50,7 +52,9 @@ class Basin:
     distance: FloatArray
     """Signed distance of each node to the shape [m], shape (nx, ny, nz)."""
     plugged: FloatArray
-    """The same of the shape without its holes."""
+    """The same of the shape without its holes, as far as they are known."""
+    plug: float
+    """Clearance by which other holes are closed [m]; 0 if all are known."""
     hollow: BoolArray
     """Nodes in the hollow."""
     round: BoolArray
@@ -68,19 +72,19 @@ class Basin:
         """
         known = (*key, plugged)
         if known not in self._pools:
-            distance = self.plugged if plugged else self.distance
-            self._pools[known] = pools(distance, self.step, self.origin, direction_of(key))
+            distance, plug = (self.plugged, self.plug) if plugged else (self.distance, 0.0)
+            self._pools[known] = pools(distance, self.step, self.origin, direction_of(key), plug)
         return self._pools[known]
 
     def capacity(self, key: tuple[int, int, int]) -> float:
         """Return the volume of all pools along a rounded direction up, holes plugged [m^3]."""
         standing = self.pool(key, plugged=True)
-        held = np.isfinite(standing) & (standing > -np.inf)
-        # Nodes nearer to the wall than half a step are blocked, yet the liquid reaches the wall.
-        grown = _dilated(held, np.ones((3, 3, 3), dtype=np.bool_))
+        if not (standing > -np.inf).any():
+            return 0.0
         height = heights(self.distance.shape, self.step, self.origin, direction_of(key))
-        level = float(standing[held].max()) if held.any() else -np.inf
-        return float(np.count_nonzero(grown & (self.plugged > 0) & (height <= level))) * self.step**3
+        # Nodes near the wall are blocked, yet the liquid reaches the wall.
+        grown = _dilated(standing > -np.inf, self.plugged > 0, 1 + round(self.plug / self.step))
+        return float(np.count_nonzero(grown & (height <= standing.max()))) * self.step**3
 
     @property
     def holds(self) -> bool:
@@ -88,33 +92,43 @@ class Basin:
         return bool(self.hollow.any())
 
 
-def basin_of(solids: Solids, plugged: Solids, low: FloatArray, high: FloatArray, spacing: float) -> Basin:
+def basin_of(solids: Solids, plugged: Solids | None, low: FloatArray, high: FloatArray, spacing: float) -> Basin:
     """Return the hollows of a rigid shape.
 
     Args:
         solids: The shape.
-        plugged: The shape without holes; the same object if it has none.
+        plugged: The shape without holes, the same object if it has none; None if its holes are not known.
         low: Least coordinates of the shape [m], shape (3,).
         high: Greatest coordinates [m], shape (3,).
         spacing: Distance of neighbours in the liquid [m].
     """
     step = max(float(np.prod(np.maximum(high - low, 1e-4)) / NODE_COUNT) ** (1 / 3), LEAST_STEP)
-    margin = max(_MARGIN * step, NEAR * spacing + 2 * step)
+    plug = PLUG if plugged is None else 0.0
+    margin = max(_MARGIN * step, NEAR * spacing + 2 * step, plug + 2 * step)
     origin = low - margin
     shape = np.ceil((high + margin - origin) / step).astype(np.int64) + 1
     nodes = origin + step * np.moveaxis(np.indices(tuple(shape.tolist()), dtype=np.float64), 0, -1).reshape(-1, 3)
     distance = Field(solids=solids).distance(nodes).reshape(shape)
-    closed = distance if plugged is solids else Field(solids=plugged).distance(nodes).reshape(shape)
+    closed = distance
+    if plugged is not None and plugged is not solids:
+        closed = Field(solids=plugged).distance(nodes).reshape(shape)
+    free = closed >= BLOCKED * step
     hollow = np.zeros(tuple(shape.tolist()), dtype=np.bool_)
     for up in _AXES:
         hollow |= pools(closed, step, origin, up) > -np.inf
-    reach = max(1, round(NEAR * spacing / step))
-    near = hollow | _dilated(hollow, None, iterations=reach, mask=closed >= BLOCKED * step)
-    return Basin(origin=origin, step=step, distance=distance, plugged=closed, hollow=hollow, round=near)
+        if plug > 0:
+            standing = pools(closed, step, origin, up, plug)
+            grown = _dilated(standing > -np.inf, free, round(plug / step))
+            hollow |= grown & (heights(distance.shape, step, origin, up) <= standing.max())
+    near = hollow | _dilated(hollow, free, max(1, round(NEAR * spacing / step)))
+    return Basin(origin=origin, step=step, distance=distance, plugged=closed, plug=plug, hollow=hollow, round=near)
 
 
-def _dilated(nodes: BoolArray, structure: BoolArray | None, **how: Any) -> BoolArray:
-    return np.asarray(cast(Any, binary_dilation)(nodes, structure, **how), dtype=np.bool_)
+def _dilated(nodes: BoolArray, free: BoolArray, steps: int) -> BoolArray:
+    """Return nodes and all others that free ways of some steps lead to, also across corners."""
+    whole = np.ones((3, 3, 3), dtype=np.bool_)
+    found: Any = cast(Any, binary_dilation)(nodes, whole, iterations=max(steps, 1), mask=free)
+    return np.asarray(found | nodes, dtype=np.bool_)
 
 
 def key_of(up: FloatArray) -> IntArray:
@@ -134,15 +148,22 @@ def heights(shape: tuple[int, ...], step: float, origin: FloatArray, up: FloatAr
     return float(origin @ up) + x[:, None, None] + y[None, :, None] + z[None, None, :]
 
 
-def pools(distance: FloatArray, step: float, origin: FloatArray, up: FloatArray) -> FloatArray:
+def pools(distance: FloatArray, step: float, origin: FloatArray, up: FloatArray, plug: float = 0.0) -> FloatArray:
     """Return how high a liquid would stand at each node along ``up`` [m], minus infinity where none would stay.
 
     In a closed hollow it is infinite.
+
+    Args:
+        distance: Signed distance of each node to the shape [m], shape (nx, ny, nz).
+        step: Distance between nodes [m].
+        origin: Position of the first node [m], shape (3,).
+        up: Unit vector, shape (3,).
+        plug: Clearance that a way out needs on all sides [m].
     """
-    free = distance >= BLOCKED * step
+    free = distance >= max(BLOCKED * step, plug)
     across, base = step * up, float(origin @ up)
     level = _spill_levels(free, base, across)
-    return _real_pools(level, free, base, across, LEAST_DEPTH * step, PASS * step)
+    return _real_pools(level, free, base, across, LEAST_DEPTH * step, PASS * step + plug)
 
 
 @njit(cache=True)
