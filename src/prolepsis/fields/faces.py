@@ -16,6 +16,8 @@ from prolepsis.things import FloatArray, IntArray
 
 PLANE, SPHERE, CAPSULE, ELLIPSOID, CYLINDER, BOX, HULL, PROFILE, GRID = range(9)
 """Kinds of solids: MuJoCo's primitives, planes of a convex hull, a turned outline, distances on a grid."""
+ON_AXIS = 1e-9
+"""What is nearer to the axis than this is on it [m]."""
 MOST_FACES = 3
 """Greatest number of faces that one solid shows to a point."""
 
@@ -34,7 +36,7 @@ class Solids(NamedTuple):
     span: IntArray
     """First number and count of the solid's own numbers, first number and count of its holes', shape (K, 4)."""
     numbers: FloatArray
-    """Planes (normal, offset), outlines (radius, height), holes (position, direction, radius) or grids (origin, step,
+    """Planes (normal, offset), sides of outlines (begin, end, direction, length), holes (position, direction, radius) or grids (origin, step,
     shape, values), one after the other."""
 
 
@@ -175,40 +177,40 @@ def _profile(x: float, y: float, z: float, numbers: FloatArray, span: IntArray, 
     """Return the sides of a turned outline that the point is in front of, or the nearest if there is none."""
     r = math.sqrt(x * x + y * y)
     cx, cy = (x / r, y / r) if r > 1e-12 else (1.0, 0.0)
-    first, last = span[0], span[0] + span[1]
     nearest, nearest_r, nearest_z = np.inf, 0.0, 1.0
     inside, corner = False, False
     count = 0
-    for p in range(first, last, 2):
-        q = p + 2 if p + 2 < last else first
-        ar, az, br, bz = numbers[p], numbers[p + 1], numbers[q], numbers[q + 1]
-        er, ez = br - ar, bz - az
-        if (az > z) != (bz > z) and r < ar + er * (z - az) / ez:
+    for p in range(span[0], span[0] + span[1], 7):
+        # Where the side begins and ends, its direction, its length.
+        ar, az, br, bz = numbers[p], numbers[p + 1], numbers[p + 2], numbers[p + 3]
+        er, ez, length = numbers[p + 4], numbers[p + 5], numbers[p + 6]
+        if (az > z) != (bz > z) and (r - ar) * ez * (1.0 if ez > 0.0 else -1.0) < er * (z - az) * (
+            1.0 if ez > 0.0 else -1.0
+        ):
             inside = not inside
-        length = math.sqrt(er * er + ez * ez)
-        if length < 1e-12 or (ar < 1e-9 and br < 1e-9):
+        if ar < ON_AXIS and br < ON_AXIS:
             continue
-        nr, nz = ez / length, -er / length
-        t = ((r - ar) * er + (z - az) * ez) / (length * length)
-        in_front = 0.0 <= t <= 1.0
-        t = min(max(t, 0.0), 1.0)
-        fr, fz = r - (ar + t * er), z - (az + t * ez)
-        signed = nr * fr + nz * fz
-        distance = math.sqrt(fr * fr + fz * fz)
-        if distance < nearest:
-            nearest, nearest_r, nearest_z = distance, nr, nz
-            if not in_front and distance > 1e-12:
-                nearest_r, nearest_z = fr / distance, fz / distance
-                corner = True
-            else:
-                corner = False
-        if in_front and 0.0 < signed < reach and count < found.shape[0]:
+        along = (r - ar) * er + (z - az) * ez
+        signed = ez * (r - ar) - er * (z - az)
+        beyond = -along if along < 0.0 else along - length if along > length else 0.0
+        square = signed * signed + beyond * beyond
+        if square < nearest:
+            nearest, corner = square, beyond > 0.0
+            nearest_r, nearest_z = ez, -er
+            if corner:
+                end = 0.0 if along < 0.0 else length
+                nearest_r, nearest_z = r - ar - end * er, z - az - end * ez
+        if beyond == 0.0 and 0.0 < signed < reach and count < found.shape[0]:
             place = count
             while place > 0 and found[place - 1, 0] > signed:
-                found[place] = found[place - 1]
+                for c in range(4):
+                    found[place, c] = found[place - 1, c]
                 place -= 1
-            found[place, 0], found[place, 1], found[place, 2], found[place, 3] = signed, nr * cx, nr * cy, nz
+            found[place, 0], found[place, 1], found[place, 2], found[place, 3] = signed, ez * cx, ez * cy, -er
             count += 1
+    nearest = math.sqrt(nearest)
+    if corner and nearest > 0.0:
+        nearest_r, nearest_z = nearest_r / nearest, nearest_z / nearest
     if inside:
         nearest, count = -nearest, 0
         if corner:
@@ -216,9 +218,12 @@ def _profile(x: float, y: float, z: float, numbers: FloatArray, span: IntArray, 
     if count == 0 or nearest < found[0, 0] - 1e-9:
         count = min(count, found.shape[0] - 1)
         for place in range(count, 0, -1):
-            found[place] = found[place - 1]
+            for c in range(4):
+                found[place, c] = found[place - 1, c]
         found[0, 0], found[0, 1], found[0, 2], found[0, 3] = nearest, nearest_r * cx, nearest_r * cy, nearest_z
         count += 1
+    if span[3] == 0:
+        return count
     return _drilled(x, y, z, numbers, span, found, count)
 
 

@@ -64,12 +64,21 @@ def solids_as_arrays(shape: Shape) -> Solids:
         radius, bottom, top = outline[:, 0].max(), outline[:, 1].min(), outline[:, 1].max()
         bounds = np.array([-radius, -radius, bottom, radius, radius, top])
         holes = [(*hole.position, *hole.direction, hole.radius) for hole in shape.holes]
-        return _joined([(PROFILE, _AT_HOME, np.zeros(3), bounds, outline.ravel(), np.ravel(holes))])
+        return _joined([(PROFILE, _AT_HOME, np.zeros(3), bounds, _sides(outline).ravel(), np.ravel(holes))])
     if shape.surface is not None:
         numbers = grid_of(shape.surface)
         bounds = np.concatenate([numbers[:3], numbers[:3] + numbers[3] * (numbers[4:7] - 1)])
         return _joined([(GRID, _AT_HOME, np.zeros(3), bounds, numbers, np.zeros(0))])
     return _joined([_convex(solid_of(geom)) for geom in shape.geoms])
+
+
+def _sides(outline: FloatArray) -> FloatArray:
+    """Return begin, end, direction and length of each side of a closed outline [m], shape (S, 7)."""
+    end = np.roll(outline, -1, axis=0)
+    way = end - outline
+    length = np.linalg.norm(way, axis=1, keepdims=True)
+    kept = length[:, 0] > 0.0
+    return np.column_stack([outline, end, way / np.maximum(length, 1e-300), length])[kept]
 
 
 _AT_HOME = np.array([0.0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1])

@@ -18,7 +18,7 @@ from prolepsis.liquid.viscosity import solve_viscosity
 from prolepsis.liquid.walls import SEEN, Bodies, empty_contacts, find_walls, keep_outside
 from prolepsis.things import FloatArray, IntArray
 
-COURANT = 0.4
+COURANT = 0.8
 """Share of a spacing that the fastest particle may go in one step [1]."""
 LONGEST, SHORTEST = 4.0e-3, 1.0e-4
 """Longest and shortest step [s]."""

@@ -11,6 +11,8 @@ from prolepsis.fields.faces import MOST_FACES, Solids, faces_of
 from prolepsis.liquid.kernel import SUPPORT, TABLE_SIZE
 from prolepsis.things import FloatArray, IntArray
 
+ENDLESS = 1.0e6
+"""What a plane's bounds stand for [m]."""
 SEEN = 4
 """Greatest number of faces that act on one particle."""
 REST_DISTANCE = 0.5
@@ -78,6 +80,31 @@ def read_table(table: FloatArray, q: float) -> float:
 
 
 @njit(cache=True)
+def _world_box(
+    frame: FloatArray,
+    bounds: FloatArray,
+    rotation: FloatArray,
+    position: FloatArray,
+    margin: float,
+    middle: FloatArray,
+    half: FloatArray,
+) -> None:
+    """Write middle and half extents of the upright box around a solid, widened by a margin [m], shape (3,) each."""
+    least, greatest = np.empty(3), np.empty(3)
+    for c in range(3):
+        least[c], greatest[c] = max(bounds[c], -ENDLESS), min(bounds[c + 3], ENDLESS)
+    for row in range(3):
+        centre, extent = position[row], margin
+        for column in range(3):
+            turned = 0.0
+            for m in range(3):
+                turned += rotation[3 * row + m] * frame[3 + 3 * m + column]
+            centre += turned * (least[column] + greatest[column]) / 2 + rotation[3 * row + column] * frame[column]
+            extent += abs(turned) * (greatest[column] - least[column]) / 2
+        middle[row], half[row] = centre, extent
+
+
+@njit(cache=True)
 def find_walls(
     position: FloatArray,
     spacing: float,
@@ -96,22 +123,23 @@ def find_walls(
         contacts.seen[i] = 0
         contacts.share[i] = 0.0
         side[i, 3] = SUPPORT
+    middle, half = np.zeros(3), np.zeros(3)
     for b in range(body_count):
         r = bodies.rotation[b]
         ox, oy, oz = bodies.position[b, 0], bodies.position[b, 1], bodies.position[b, 2]
         ux, uy, uz = bodies.velocity[b, 0], bodies.velocity[b, 1], bodies.velocity[b, 2]
         wx, wy, wz = bodies.spin[b, 0], bodies.spin[b, 1], bodies.spin[b, 2]
-        limit = bodies.reach[b, 3] + reach
-        limit = limit * limit
-        cx, cy, cz = bodies.reach[b, 0], bodies.reach[b, 1], bodies.reach[b, 2]
-        for i in range(n):
-            dx, dy, dz = position[i, 0] - ox, position[i, 1] - oy, position[i, 2] - oz
-            x = r[0] * dx + r[3] * dy + r[6] * dz
-            y = r[1] * dx + r[4] * dy + r[7] * dz
-            z = r[2] * dx + r[5] * dy + r[8] * dz
-            if (x - cx) ** 2 + (y - cy) ** 2 + (z - cz) ** 2 > limit:
-                continue
-            for k in range(bodies.first[b], bodies.first[b + 1]):
+        for k in range(bodies.first[b], bodies.first[b + 1]):
+            _world_box(solids.frame[k], solids.bounds[k], r, bodies.position[b], reach, middle, half)
+            mx, my, mz = middle[0], middle[1], middle[2]
+            hx, hy, hz = half[0], half[1], half[2]
+            for i in range(n):
+                if abs(position[i, 2] - mz) > hz or abs(position[i, 0] - mx) > hx or abs(position[i, 1] - my) > hy:
+                    continue
+                dx, dy, dz = position[i, 0] - ox, position[i, 1] - oy, position[i, 2] - oz
+                x = r[0] * dx + r[3] * dy + r[6] * dz
+                y = r[1] * dx + r[4] * dy + r[7] * dz
+                z = r[2] * dx + r[5] * dy + r[8] * dz
                 count = faces_of(solids, k, x, y, z, reach, found)
                 for f in range(count):
                     distance = found[f, 0]
