@@ -79,8 +79,14 @@ class Places:
     def fraction(self, mask: npt.NDArray[Any], stuff: int) -> FloatArray:
         """Return the share of a stuff's mass that a mask or weight, shape (F, P), covers in each frame, shape (F,)."""
         chosen = self.particles.stuff == stuff
+        share = self.share[chosen]
+        shown = mask if chosen.all() else mask[:, chosen]
+        if shown.dtype == np.bool_ and (share == share[0]).all():
+            found = np.count_nonzero(shown, axis=1) * float(share[0])
+        else:
+            found = shown @ share
         # A sum of all shares may exceed one by rounding.
-        return np.minimum(mask[:, chosen] @ self.share[chosen], 1.0)
+        return np.minimum(found, 1.0)
 
     def volume(self, stuff: int) -> float:
         """Return the volume of all of a stuff [m^3]."""
@@ -202,7 +208,8 @@ def _touching(
     observation: Observation, particles: Particles, loose: BoolArray, inside: tuple[Inside, ...]
 ) -> tuple[Bits, npt.NDArray[np.int16]]:
     from prolepsis.fluents.kernels.matter import assembled
-    from prolepsis.fluents.kernels.places import pile_up, touch_surfaces
+    from prolepsis.fluents.kernels.piles import pile_up
+    from prolepsis.fluents.kernels.places import touch_surfaces
 
     spacing = particles.spacing
     manner = np.zeros(loose.shape, dtype=np.uint8)

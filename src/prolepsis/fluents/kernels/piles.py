@@ -1,0 +1,97 @@
+"""Which particles lie on others that lie on a surface, so that they share their lot."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
+
+from prolepsis.fluents.kernels.places import ON, Bits, Labels, Positions
+from prolepsis.things import BoolArray, FloatArray, IntArray
+
+
+@njit(cache=True)
+def pile_up(
+    position: Positions,
+    tick: IntArray,
+    dt: float,
+    look: BoolArray,
+    up: FloatArray,
+    reach: float,
+    together_speed: float,
+    manner: Bits,
+    on: Labels,
+) -> None:
+    """Let particles share the lot of those that lie under them: connected, lower, and of about the same velocity.
+
+    Args:
+        position: World frame [m], shape (F, P, 3).
+        tick: Tick of each frame, shape (F,).
+        dt: Tick [s].
+        look: Particles to look at, shape (F, P).
+        up: Direction up in the world, shape (3,).
+        reach: Greatest distance of neighbours [m].
+        together_speed: Greatest difference of their velocities [m/s].
+        manner: How each particle touches a surface, extended, shape (F, P).
+        on: Which surface, extended, shape (F, P).
+    """
+    frame_count, count = position.shape[0], position.shape[1]
+    height = np.empty(count)
+    chosen = np.empty(count, dtype=np.int64)
+    velocity = np.empty((count, 3))
+    size = 1
+    while size < 2 * count:
+        size *= 2
+    head = np.full(size, -1, dtype=np.int64)
+    following = np.empty(count, dtype=np.int64)
+    for f in range(frame_count):
+        number, open_ = 0, 0
+        for p in range(count):
+            if look[f, p]:
+                chosen[number] = p
+                number += 1
+                if manner[f, p] < ON:
+                    open_ += 1
+        if open_ == 0 or open_ == number:
+            continue
+        first, last = max(f - 1, 0), min(f + 1, frame_count - 1)
+        time = max((tick[last] - tick[first]) * dt, 1e-9)
+        head[:] = -1
+        for n in range(number):
+            p = chosen[n]
+            h = 0.0
+            for axis in range(3):
+                h += position[f, p, axis] * up[axis]
+                velocity[p, axis] = (position[last, p, axis] - position[first, p, axis]) / time
+            height[p] = h
+            cell = _cell(position[f, p, 0], position[f, p, 1], position[f, p, 2], reach, size)
+            following[p] = head[cell]
+            head[cell] = p
+        order = chosen[:number][np.argsort(height[chosen[:number]])]
+        for p in order:
+            if manner[f, p] >= ON:
+                continue
+            best, body = manner[f, p], on[f, p]
+            x, y, z = position[f, p, 0], position[f, p, 1], position[f, p, 2]
+            for i in range(-1, 2):
+                for j in range(-1, 2):
+                    for k in range(-1, 2):
+                        q = head[_cell(x + i * reach, y + j * reach, z + k * reach, reach, size)]
+                        while q >= 0:
+                            if manner[f, q] > best and height[q] < height[p]:
+                                square, apart = 0.0, 0.0
+                                for axis in range(3):
+                                    square += (position[f, p, axis] - position[f, q, axis]) ** 2
+                                    apart += (velocity[p, axis] - velocity[q, axis]) ** 2
+                                under = (height[p] - height[q]) ** 2 >= 0.25 * square
+                                if square < reach * reach and under and apart < together_speed * together_speed:
+                                    best, body = manner[f, q], on[f, q]
+                            q = following[q]
+            manner[f, p], on[f, p] = best, body
+
+
+@njit(cache=True)
+def _cell(x: float, y: float, z: float, reach: float, size: int) -> int:
+    i, j, k = int(math.floor(x / reach)), int(math.floor(y / reach)), int(math.floor(z / reach))
+    return (i * 73856093 ^ j * 19349663 ^ k * 83492791) & (size - 1)
