@@ -30,7 +30,7 @@ class Look:
 
 
 LOOKS: Mapping[str, Look] = {
-    "Water": Look(colour=(0.22, 0.52, 0.78), opacity=28.0),
+    "Water": Look(colour=(0.22, 0.52, 0.78), opacity=45.0),
     "Coffee": Look(colour=(0.21, 0.10, 0.04), opacity=320.0),
     "Milk": Look(colour=(0.97, 0.96, 0.92), opacity=900.0),
     "OliveOil": Look(colour=(0.70, 0.66, 0.12), opacity=70.0),
