@@ -11,6 +11,7 @@ from prolepsis.knowledge import KnowledgeBase
 from prolepsis.log import Log
 from prolepsis.programs import read_program
 from prolepsis.scene import Scene, compile_world, compose
+from prolepsis.scene.filling import DEFAULT_PARTICLES
 from prolepsis.simulation import simulate
 from prolepsis.terms import parse_term
 
@@ -22,20 +23,25 @@ EGG_IN_HAND = ":floor a :Floor . :table1 a :Table . :egg1 a :Egg ; :on :table1 .
 """An egg on a table, the open pads of a hand on both sides of it."""
 
 
-def scene(turtle: str, values: Mapping[str, float | str] | None = None) -> Scene:
+def scene(turtle: str, values: Mapping[str, float | str] | None = None, particles: int = DEFAULT_PARTICLES) -> Scene:
     """Return the scene of a situation written as Turtle (without the prefix), with some values replaced."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "situation.ttl"
         file.write_text(PREFIX + turtle, encoding="utf-8")
         knowledge = KnowledgeBase.load(file)
-    return compose(knowledge.with_values(values) if values else knowledge)
+    return compose(knowledge.with_values(values) if values else knowledge, particles=particles)
 
 
 def run(
-    turtle: str, plan: str = "wait(0.001)", *, values: Mapping[str, float | str] | None = None, **options: Any
+    turtle: str,
+    plan: str = "wait(0.001)",
+    *,
+    values: Mapping[str, float | str] | None = None,
+    particles: int = DEFAULT_PARTICLES,
+    **options: Any,
 ) -> Log:
     """Return the log of a plan in a situation; ``options`` are those of ``simulate``."""
-    composed = scene(turtle, values)
+    composed = scene(turtle, values, particles)
     return simulate(compile_world(composed), read_program(parse_term(plan), composed), **options)
 
 

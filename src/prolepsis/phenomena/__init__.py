@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from prolepsis.phenomena import breaking, wetting
+from prolepsis.phenomena import absorbing, breaking, flowing, wetting
 from prolepsis.phenomena.phenomenon import Attach, Detachment, Draw, Phenomenon
 
-PHENOMENA: tuple[Attach, ...] = (breaking.attach, wetting.attach)
+PHENOMENA: tuple[Attach, ...] = (breaking.attach, wetting.attach, flowing.attach, absorbing.attach)
 """All phenomena in the order in which they run; a later one may read what an earlier one did."""
 
 __all__ = ["PHENOMENA", "Attach", "Detachment", "Draw", "Phenomenon"]
