@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import time
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from prolepsis.fields.faces import Solids
+from prolepsis.liquid.calming import calm
 from prolepsis.liquid.kernel import SUPPORT, Indices, Singles, pair_table, wall_tables
 from prolepsis.liquid.neighbours import find_neighbours, row_order
 from prolepsis.liquid.particles import ParticleState
@@ -20,14 +22,18 @@ from prolepsis.things import FloatArray, IntArray
 
 COURANT = 0.8
 """Share of a spacing that the fastest particle may go in one step [1]."""
+RIPPLE = 0.4
+"""Share of the period of the shortest ripple that a step may take [1]."""
 LONGEST, SHORTEST = 4.0e-3, 1.0e-4
 """Longest and shortest step [s]."""
 MOST_NEIGHBOURS = 64
 """Room for neighbours per particle, doubled when it does not suffice."""
-PRESSURE_TOLERANCE = 1.0e-3
-"""Mean compression that a step may leave [1]."""
+PRESSURE_TOLERANCE = 0.25
+"""Mean rate of compression that a step may leave [1/s]."""
 PRESSURE_SWEEPS = (2, 40)
 """Least and greatest number of sweeps of the pressure solver."""
+CALMING_SPEED = 0.2
+"""Speed with which jitter is passed on from neighbour to neighbour [m/s]."""
 VISCOUS_TOLERANCE = 1.0e-3
 """Residual over right-hand side at which the viscous solver ends [1]."""
 VISCOUS_ITERATIONS = 100
@@ -65,6 +71,9 @@ class Liquid:
         self._last = 1.0e-3
         self._grow(MOST_NEIGHBOURS)
         self._contacts = empty_contacts(count)
+        # The shortest ripple of the lightest liquid must be seen (Brackbill et al. 1992).
+        lightness = (particles.tension / particles.mass).max(initial=1e-12)
+        self._ripple = RIPPLE / math.sqrt(2 * math.pi * lightness)
 
     def _grow(self, room: int) -> None:
         self._room = room
@@ -82,7 +91,8 @@ class Liquid:
         v = p.velocity[free]
         fastest = float(np.sqrt(np.einsum("ij,ij->i", v, v).max()))
         fall = float(np.linalg.norm(self._gravity)) * LONGEST
-        return float(np.clip(COURANT * p.spacing / max(fastest + fall, 1e-9), SHORTEST, LONGEST))
+        by_speed = COURANT * p.spacing / max(fastest + fall, 1e-9)
+        return float(np.clip(min(by_speed, self._ripple), SHORTEST, LONGEST))
 
     def step(self, dt: float, solids: Solids, bodies: Bodies, after: Bodies) -> FloatArray:
         """Move the free particles on by ``dt`` [s].
@@ -125,6 +135,7 @@ class Liquid:
         add_adhesion(contacts, strength, wetting, tables.pull, spacing, force)
         complete_density(contacts, density, steepness, tables.share, tables.share_slope, spacing)
         v += dt * (self._gravity + force / mass[:, None])
+        calm(x, v, mass, start, end, self._other, self._gradient, min(CALMING_SPEED * dt / spacing, 0.5))
         clock.lap("attraction")
         impulse = self._impulse[ids] * (dt / self._last)
         # Before viscosity, or what the last pressures do wrong at single particles would never be damped.
@@ -141,7 +152,7 @@ class Liquid:
         push = np.zeros((n, SEEN))
         sweeps, error = solve_pressure(
             v, 1.0 / mass, start, end, self._other, self._gradient, steepness, density, contacts, impulse, push,
-            spacing, dt, PRESSURE_TOLERANCE, *PRESSURE_SWEEPS,
+            spacing, dt, PRESSURE_TOLERANCE * dt, *PRESSURE_SWEEPS,
         )  # fmt: skip
         self._impulse[ids] = impulse
         self.effort.sweeps += sweeps

@@ -129,8 +129,14 @@ def solve_viscosity(
                 direction[i, c] = conditioned[i, c] + share * direction[i, c]
         size = after
         iteration += 1
-    for i in range(n):
-        for c in range(3):
+    # What the iterations leave over sums up to a push on the whole, which is given back.
+    for c in range(3):
+        left, total = 0.0, 0.0
+        for i in range(n):
+            left += residual[i, c]
+            total += mass[i]
+        for i in range(n):
+            found[i, c] += left / total
             guess[i, c] = found[i, c] - velocity[i, c]
             velocity[i, c] = found[i, c]
     return iteration
