@@ -15,7 +15,6 @@ import numpy.typing as npt
 from prolepsis.terms import Term
 from prolepsis.things import FloatArray, IntArray, Thing, Triple
 
-
 FREE = -1
 """Holder of a particle that flows."""
 PARKED = -2
