@@ -57,9 +57,7 @@ def _read(path: Path, scale: float, changed: int) -> Surface:
     if len(triangles) > MOST_TRIANGLES:
         raise KnowledgeError(f"{path}: the mesh has {len(triangles)} triangles; allowed: {MOST_TRIANGLES}")
     if not (mesh.is_watertight and mesh.is_winding_consistent):
-        raise KnowledgeError(
-            f"{path}: the mesh is not watertight; allowed: a closed surface"
-        )
+        raise KnowledgeError(f"{path}: the mesh is not watertight; allowed: a closed surface")
     extent = float(np.ptp(vertices, axis=0).max())
     if extent > GREATEST_EXTENT:
         raise KnowledgeError(
