@@ -12,7 +12,10 @@ from prolepsis.fields.signed_distance import shifted, solids_as_arrays, union_of
 from prolepsis.fields.solids import Solid, bounded, matrix
 from prolepsis.liquid.walls import Bodies
 from prolepsis.state import State
-from prolepsis.things import FloatArray, IntArray, Shape
+from prolepsis.things import BoolArray, FloatArray, IntArray, Shape
+
+FREE_FREEDOMS = 6
+"""Degrees of freedom of a body that moves freely."""
 
 
 class WallBodies:
@@ -56,7 +59,21 @@ class WallBodies:
         self._first = np.array(first, dtype=np.int64)
         self._balls = np.array(balls).reshape(-1, 4)
         self._position, self._rotation = self._poses(state)
+        self._weigh(state)
         return True
+
+    def _weigh(self, state: State) -> None:
+        """Note where the bodies' masses are, and how those that are free and in no hand's grip yield."""
+        model, data = state.model, state.data
+        self._centre = data.xipos[self.ids].copy()
+        self._mobility = np.zeros((len(self.ids), 10))
+        held = _held(state)
+        for k, body in enumerate(self.ids.tolist()):
+            if model.body_dofnum[body] != FREE_FREEDOMS or body in held:
+                continue
+            turn = data.ximat[body].reshape(3, 3)
+            self._mobility[k, 0] = 1.0 / model.body_mass[body]
+            self._mobility[k, 1:] = ((turn / model.body_inertia[body]) @ turn.T).ravel()
 
     def _poses(self, state: State) -> tuple[FloatArray, FloatArray]:
         # After a step these are a step old.
@@ -73,6 +90,7 @@ class WallBodies:
         position, rotation = self._poses(state)
         old_position, old_rotation = self._position, self._rotation
         self._position, self._rotation = position, rotation
+        self._weigh(state)
         velocity = (position - old_position) / dt
         turn = np.einsum("bij,bkj->bik", rotation.reshape(-1, 3, 3), old_rotation.reshape(-1, 3, 3))
         # Of the small turn between two steps the skew part is the axis times the sine of the angle.
@@ -90,7 +108,14 @@ class WallBodies:
             position=np.ascontiguousarray(position),
             velocity=np.ascontiguousarray(velocity),
             spin=np.ascontiguousarray(spin),
+            centre=self._centre,
+            mobility=self._mobility,
         )
+
+    @property
+    def yields(self) -> BoolArray:
+        """Whether each body gives way to the liquid, shape (B,)."""
+        return self._mobility[:, 0] > 0.0
 
     def now(self) -> tuple[FloatArray, FloatArray]:
         """Return position and rotation where the last step ended."""
@@ -99,6 +124,16 @@ class WallBodies:
     def way(self, state: State) -> float:
         """Return how far the fastest body has gone since the last step [m]."""
         return float(np.linalg.norm(state.data.xpos[self.ids] - self._position, axis=1).max(initial=0.0))
+
+
+def _held(state: State) -> set[int]:
+    """Return the bodies that touch a jointed one, as an object does the fingers of a hand."""
+    jointed = (state.model.body_dofnum > 0) & (state.model.body_dofnum != FREE_FREEDOMS)
+    found: set[int] = set()
+    for _, a, b, force in state.normal_forces():
+        if force > 0.0 and jointed[a] != jointed[b]:
+            found.add(b if jointed[a] else a)
+    return found
 
 
 def _ball(parts: list[tuple[Shape, FloatArray]]) -> FloatArray:

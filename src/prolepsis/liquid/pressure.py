@@ -13,6 +13,7 @@ from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownV
 
 from prolepsis.liquid.kernel import Counts, Indices, Singles
 from prolepsis.liquid.walls import REST_DISTANCE, Contacts
+from prolepsis.liquid.yielding import along, give_way, softness
 from prolepsis.things import FloatArray
 
 CORRECTION = 0.2
@@ -36,6 +37,8 @@ def solve_pressure(
     contacts: Contacts,
     impulse: FloatArray,
     push: FloatArray,
+    mobility: FloatArray,
+    yielded: FloatArray,
     spacing: float,
     dt: float,
     tolerance: float,
@@ -56,6 +59,8 @@ def solve_pressure(
         contacts: What each particle sees of the walls.
         impulse: Pressure impulses; in: first guess, which the velocities contain, out: result [N s m], shape (n,).
         push: Impulses of the walls' surfaces, out [N s], shape (n, SEEN).
+        mobility: Of the bodies, shape (B, 10).
+        yielded: By how much their velocity and spin differ from the walls', changed, shape (B, 6).
         spacing: [m].
         dt: [s].
         tolerance: Mean compression per step at which the sweeps end [1].
@@ -72,7 +77,10 @@ def solve_pressure(
         diagonal = (sx * sx + sy * sy + sz * sz) * inverse_mass[i]
         for f in range(contacts.seen[i]):
             push[i, f] = 0.0
-            slope, normal, wall = contacts.slope[i, f], contacts.normal[i, f], contacts.velocity[i, f]
+            slope, normal = contacts.slope[i, f], contacts.normal[i, f]
+            body = contacts.body[i, f]
+            if mobility[body, 0] > 0.0:
+                diagonal += slope * slope * softness(mobility[body], contacts.arm[i, f], normal)
             sx -= slope * normal[0]
             sy -= slope * normal[1]
             sz -= slope * normal[2]
@@ -102,6 +110,9 @@ def solve_pressure(
             for f in range(seen):
                 normal, wall = contacts.normal[i, f], contacts.velocity[i, f]
                 closing = normal[0] * (vx - wall[0]) + normal[1] * (vy - wall[1]) + normal[2] * (vz - wall[2])
+                body = contacts.body[i, f]
+                if mobility[body, 0] > 0.0:
+                    closing -= along(yielded[body], contacts.arm[i, f], normal)
                 residual += contacts.slope[i, f] * closing
             if residual > 0.0:
                 error += residual
@@ -110,6 +121,18 @@ def solve_pressure(
             if abs(residual) > negligible and change != 0.0:
                 impulse[i] += change
                 _apply(i, change, velocity, inverse_mass, start, end, other, gradient, steepness)
+                for f in range(seen):
+                    body = contacts.body[i, f]
+                    if mobility[body, 0] > 0.0:
+                        normal, size = contacts.normal[i, f], change * contacts.slope[i, f]
+                        give_way(
+                            yielded[body],
+                            mobility[body],
+                            contacts.arm[i, f],
+                            size * normal[0],
+                            size * normal[1],
+                            size * normal[2],
+                        )
             for f in range(seen):
                 gap = contacts.distance[i, f] - least
                 if gap > spacing:
@@ -119,9 +142,22 @@ def solve_pressure(
                 for c in range(3):
                     closing += normal[c] * (velocity[i, c] - wall[c])
                 limit = -gap / dt if gap > 0.0 else -CORRECTION * gap / dt
-                more = max((limit - closing) / inverse_mass[i], -push[i, f])
+                body, soft = contacts.body[i, f], inverse_mass[i]
+                if mobility[body, 0] > 0.0:
+                    closing -= along(yielded[body], contacts.arm[i, f], normal)
+                    soft += softness(mobility[body], contacts.arm[i, f], normal)
+                more = max((limit - closing) / soft, -push[i, f])
                 if more != 0.0:
                     push[i, f] += more
+                    if mobility[body, 0] > 0.0:
+                        give_way(
+                            yielded[body],
+                            mobility[body],
+                            contacts.arm[i, f],
+                            -more * normal[0],
+                            -more * normal[1],
+                            -more * normal[2],
+                        )
                     for c in range(3):
                         velocity[i, c] += more * inverse_mass[i] * normal[c]
         sweep += 1

@@ -104,13 +104,30 @@ def pin_edges(
 
 @njit(cache=True)
 def add_drag(
-    contacts: Contacts, velocity: FloatArray, slip: FloatArray, position: FloatArray, bodies: FloatArray
+    contacts: Contacts,
+    velocity: FloatArray,
+    slip: FloatArray,
+    yielded: FloatArray,
+    position: FloatArray,
+    bodies: FloatArray,
 ) -> None:
-    """Add to the bodies what viscosity does to the walls; ``bodies`` as in ``add_pressure``."""
+    """Add to the bodies what viscosity does to the walls.
+
+    Args:
+        contacts: What each particle sees of the walls.
+        velocity: With viscosity [m/s], shape (n, 3).
+        slip: Coefficient of each wall face [kg], shape (n, SEEN).
+        yielded: Change of each body's velocity and spin by drag, shape (B, 6).
+        position: [m], shape (n, 3).
+        bodies: As in ``add_pressure``.
+    """
     for i in range(len(velocity)):
         for f in range(contacts.seen[i]):
             normal, wall = contacts.normal[i, f], contacts.velocity[i, f]
-            x, y, z = velocity[i, 0] - wall[0], velocity[i, 1] - wall[1], velocity[i, 2] - wall[2]
+            v, arm = yielded[contacts.body[i, f]], contacts.arm[i, f]
+            x = velocity[i, 0] - wall[0] - (v[0] + v[4] * arm[2] - v[5] * arm[1])
+            y = velocity[i, 1] - wall[1] - (v[1] + v[5] * arm[0] - v[3] * arm[2])
+            z = velocity[i, 2] - wall[2] - (v[2] + v[3] * arm[1] - v[4] * arm[0])
             into = x * normal[0] + y * normal[1] + z * normal[2]
             k = slip[i, f]
             _add(

@@ -18,6 +18,7 @@ from prolepsis.liquid.reaction import add_adhesion, add_drag, add_pressure, pin_
 from prolepsis.liquid.surface import complete_density
 from prolepsis.liquid.viscosity import solve_viscosity
 from prolepsis.liquid.walls import SEEN, Bodies, empty_contacts, find_walls, keep_outside
+from prolepsis.liquid.yielding import about, inertia_of, response
 from prolepsis.things import FloatArray, IntArray
 
 COURANT = 0.8
@@ -69,6 +70,8 @@ class Liquid:
         self._impulse = np.zeros(count)
         self._viscous = np.zeros((count, 3))
         self._last = 1.0e-3
+        # Force and torque on each body in the last step, and the part of it that was drag.
+        self._pushed, self._dragged = np.zeros((0, 6)), np.zeros((0, 6))
         self._grow(MOST_NEIGHBOURS)
         self._contacts = empty_contacts(count)
         # The shortest ripple of the lightest liquid must be seen (Brackbill et al. 1992).
@@ -81,6 +84,10 @@ class Liquid:
         self._other: Indices = np.zeros(size, dtype=np.uint32)
         self._gradient: Singles = np.zeros((size, 3), dtype=np.float32)
         self._drag: Singles = np.zeros(size, dtype=np.float32)
+
+    def forget_pushes(self) -> None:
+        """Forget what the bodies were given: they are others now."""
+        self._pushed, self._dragged = np.zeros((0, 6)), np.zeros((0, 6))
 
     def next_step(self) -> float:
         """Return the longest step that the fastest free particle allows [s]."""
@@ -141,18 +148,26 @@ class Liquid:
         # Before viscosity, or what the last pressures do wrong at single particles would never be damped.
         apply_impulses(impulse, v, 1.0 / mass, start, end, self._other, self._gradient, steepness)
         guess = self._viscous[ids] * (dt / self._last)
-        slip = np.zeros((n, SEEN))
+        slip, push = np.zeros((n, SEEN)), np.zeros((n, SEEN))
+        if len(self._pushed) != len(reaction):
+            self._pushed, self._dragged = np.zeros_like(reaction), np.zeros_like(reaction)
+        mobility, yielded = bodies.mobility, np.zeros_like(reaction)
         self.effort.iterations += solve_viscosity(
             v, guess, mass, viscosity, start, end, self._other, self._gradient, self._drag, contacts, tables.drag,
-            spacing, dt, VISCOUS_TOLERANCE, VISCOUS_ITERATIONS, slip,
+            spacing, dt, VISCOUS_TOLERANCE, VISCOUS_ITERATIONS, slip, inertia_of(mobility),
+            self._dragged * dt, yielded,
         )  # fmt: skip
-        add_drag(contacts, v, slip, x, reaction)
+        add_drag(contacts, v, slip, yielded, x, reaction)
+        dragged = about(bodies.centre, reaction) / dt
         self._viscous[ids] = guess
         clock.lap("viscosity")
-        push = np.zeros((n, SEEN))
+        if mobility.any():
+            guessed = np.zeros_like(reaction)
+            add_pressure(contacts, impulse, push, strength, wetting, tables.pull, spacing, dt, x, guessed)
+            yielded += response(mobility, about(bodies.centre, guessed) - dt * (self._pushed - self._dragged))
         sweeps, error = solve_pressure(
             v, 1.0 / mass, start, end, self._other, self._gradient, steepness, density, contacts, impulse, push,
-            spacing, dt, PRESSURE_TOLERANCE * dt, *PRESSURE_SWEEPS,
+            mobility, yielded, spacing, dt, PRESSURE_TOLERANCE * dt, *PRESSURE_SWEEPS,
         )  # fmt: skip
         self._impulse[ids] = impulse
         self.effort.sweeps += sweeps
@@ -160,6 +175,7 @@ class Liquid:
         clock.lap("pressure")
         pin_edges(contacts, v, mass, p.tension[ids], p.pinning[ids], alone, x, spacing, dt, reaction)
         add_pressure(contacts, impulse, push, strength, wetting, tables.pull, spacing, dt, x, reaction)
+        self._pushed, self._dragged = about(bodies.centre, reaction) / dt, dragged
         x += dt * v
         keep_outside(x, v, contacts, spacing, solids, after, dt)
         p.position[ids], p.velocity[ids] = x, v

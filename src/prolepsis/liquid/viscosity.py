@@ -37,6 +37,9 @@ def solve_viscosity(
     tolerance: float,
     most: int,
     slip: FloatArray,
+    inertia: FloatArray,
+    last_drag: FloatArray,
+    yielded: FloatArray,
 ) -> int:
     """Change the velocities by the viscous impulses of a step, and return the number of iterations.
 
@@ -57,11 +60,21 @@ def solve_viscosity(
         tolerance: Residual over right-hand side at which the iterations end [1].
         most: Greatest number of iterations.
         slip: Coefficient of each wall face [kg], written here, shape (n, SEEN).
+        inertia: Mass [kg] and the rows of the inertia in the world [kg m^2] of the bodies that yield, zeros for those
+            that do not, shape (B, 10).
+        last_drag: Impulse and its moment about the centre of mass that drag gave to each body in the last step, as
+            long as this one, shape (B, 6).
+        yielded: Change of each body's velocity and spin by drag, written here, shape (B, 6).
     """
     n = len(velocity)
     volume = spacing**3
     right = np.zeros((n, 3))
     diagonal = np.zeros((n, 3))
+    count = len(inertia)
+    body_right, body_diagonal = -last_drag, np.ones((count, 6))
+    for b in range(count):
+        for c in range(3):
+            body_diagonal[b, c], body_diagonal[b, c + 3] = inertia[b, 0], inertia[b, 1 + 4 * c]
     # Factor of (v . g) g of each pair, with the time step in it.
     factor: Singles = np.zeros(len(other), dtype=np.float32)
     for i in range(n):
@@ -84,34 +97,73 @@ def solve_viscosity(
             for c in range(3):
                 right[i, c] += k * (wall[c] - along * normal[c])
                 diagonal[i, c] += k * (1.0 - normal[c] * normal[c])
+            b = contacts.body[i, f]
+            if inertia[b, 0] > 0.0:
+                x, y, z = wall[0] - along * normal[0], wall[1] - along * normal[1], wall[2] - along * normal[2]
+                arm = contacts.arm[i, f]
+                _add_wrench(body_right[b], arm, -k * x, -k * y, -k * z)
+                square = arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2]
+                for c in range(3):
+                    body_diagonal[b, c] += k * (1.0 - normal[c] * normal[c])
+                    body_diagonal[b, c + 3] += k * (square - arm[c] * arm[c])
     stiffest = 0.0
     for i in range(n):
         stiffest = max(stiffest, diagonal[i, 0] / mass[i])
     gentle = stiffest < 1.0 + GENTLE
     found = velocity + guess
     product = np.zeros((n, 3))
-    _multiply(found, mass, start, end, other, gradient, factor, contacts, slip, product)
+    yielded[:] = 0.0
+    body_product = np.zeros((count, 6))
+    _multiply(found, yielded, mass, inertia, start, end, other, gradient, factor, contacts, slip, product, body_product)
     residual = right - product
+    body_residual = body_right - body_product
+    for b in range(count):
+        if inertia[b, 0] == 0.0:
+            body_residual[b] = 0.0
+            body_diagonal[b] = 1.0
     if gentle:
         # One Jacobi step is exact enough where viscosity changes the velocities by a few percent.
         for i in range(n):
             for c in range(3):
                 guess[i, c] += residual[i, c] / diagonal[i, c]
                 velocity[i, c] += guess[i, c]
+        for b in range(count):
+            for c in range(6):
+                yielded[b, c] += body_residual[b, c] / body_diagonal[b, c]
         return 1
-    conditioned = residual / diagonal
-    direction = conditioned.copy()
+    conditioned, body_conditioned = residual / diagonal, body_residual / body_diagonal
+    direction, body_direction = conditioned.copy(), body_conditioned.copy()
     size = 0.0
     scale = 1e-30
     for i in range(n):
         for c in range(3):
             size += residual[i, c] * conditioned[i, c]
             scale += right[i, c] * right[i, c] / diagonal[i, c]
+    for b in range(count):
+        for c in range(6):
+            size += body_residual[b, c] * body_conditioned[b, c]
     limit = tolerance * tolerance * scale
     iteration = 0
     while iteration < most and size > limit:
-        _multiply(direction, mass, start, end, other, gradient, factor, contacts, slip, product)
+        _multiply(
+            direction,
+            body_direction,
+            mass,
+            inertia,
+            start,
+            end,
+            other,
+            gradient,
+            factor,
+            contacts,
+            slip,
+            product,
+            body_product,
+        )
         curvature = 0.0
+        for b in range(count):
+            for c in range(6):
+                curvature += body_direction[b, c] * body_product[b, c]
         for i in range(n):
             for c in range(3):
                 curvature += direction[i, c] * product[i, c]
@@ -123,7 +175,16 @@ def solve_viscosity(
                 residual[i, c] -= step * product[i, c]
                 conditioned[i, c] = residual[i, c] / diagonal[i, c]
                 after += residual[i, c] * conditioned[i, c]
+        for b in range(count):
+            for c in range(6):
+                yielded[b, c] += step * body_direction[b, c]
+                body_residual[b, c] -= step * body_product[b, c]
+                body_conditioned[b, c] = body_residual[b, c] / body_diagonal[b, c]
+                after += body_residual[b, c] * body_conditioned[b, c]
         share = after / size
+        for b in range(count):
+            for c in range(6):
+                body_direction[b, c] = body_conditioned[b, c] + share * body_direction[b, c]
         for i in range(n):
             for c in range(3):
                 direction[i, c] = conditioned[i, c] + share * direction[i, c]
@@ -142,10 +203,22 @@ def solve_viscosity(
     return iteration
 
 
+@njit(cache=True, inline="always")
+def _add_wrench(wrench: FloatArray, arm: FloatArray, x: float, y: float, z: float) -> None:
+    wrench[0] += x
+    wrench[1] += y
+    wrench[2] += z
+    wrench[3] += arm[1] * z - arm[2] * y
+    wrench[4] += arm[2] * x - arm[0] * z
+    wrench[5] += arm[0] * y - arm[1] * x
+
+
 @njit(cache=True, fastmath=True)
 def _multiply(
     vector: FloatArray,
+    bodies: FloatArray,
     mass: FloatArray,
+    inertia: FloatArray,
     start: Counts,
     end: Counts,
     other: Indices,
@@ -154,7 +227,15 @@ def _multiply(
     contacts: Contacts,
     slip: FloatArray,
     product: FloatArray,
+    body_product: FloatArray,
 ) -> None:
+    """Multiply velocities of particles and of bodies with masses and drags."""
+    for b in range(len(bodies)):
+        m, v = inertia[b], bodies[b]
+        for c in range(3):
+            body_product[b, c] = m[0] * v[c]
+            row = 1 + 3 * c
+            body_product[b, c + 3] = m[row] * v[3] + m[row + 1] * v[4] + m[row + 2] * v[5]
     for i in range(len(vector)):
         x, y, z = vector[i, 0], vector[i, 1], vector[i, 2]
         sx, sy, sz = mass[i] * x, mass[i] * y, mass[i] * z
@@ -166,9 +247,18 @@ def _multiply(
             sy += along * gy
             sz += along * gz
         for f in range(contacts.seen[i]):
-            normal, k = contacts.normal[i, f], slip[i, f]
-            into = normal[0] * x + normal[1] * y + normal[2] * z
-            sx += k * (x - into * normal[0])
-            sy += k * (y - into * normal[1])
-            sz += k * (z - into * normal[2])
+            normal, k, b = contacts.normal[i, f], slip[i, f], contacts.body[i, f]
+            ux, uy, uz = x, y, z
+            if inertia[b, 0] > 0.0:
+                v, arm = bodies[b], contacts.arm[i, f]
+                ux -= v[0] + v[4] * arm[2] - v[5] * arm[1]
+                uy -= v[1] + v[5] * arm[0] - v[3] * arm[2]
+                uz -= v[2] + v[3] * arm[1] - v[4] * arm[0]
+            into = normal[0] * ux + normal[1] * uy + normal[2] * uz
+            ux, uy, uz = k * (ux - into * normal[0]), k * (uy - into * normal[1]), k * (uz - into * normal[2])
+            sx += ux
+            sy += uy
+            sz += uz
+            if inertia[b, 0] > 0.0:
+                _add_wrench(body_product[b], contacts.arm[i, f], -ux, -uy, -uz)
         product[i, 0], product[i, 1], product[i, 2] = sx, sy, sz

@@ -34,6 +34,11 @@ class Bodies(NamedTuple):
     """Velocity of the origin [m/s], shape (B, 3)."""
     spin: FloatArray
     """Angular velocity in the world [rad/s], shape (B, 3)."""
+    centre: FloatArray
+    """Centre of mass in the world [m], shape (B, 3)."""
+    mobility: FloatArray
+    """Inverse mass [1/kg], then the rows of the inverse inertia in the world [1/(kg m^2)]; zeros for a body that does
+    not yield to the liquid, shape (B, 10)."""
 
 
 class Contacts(NamedTuple):
@@ -49,6 +54,8 @@ class Contacts(NamedTuple):
     """From the wall into the liquid, world frame, shape (n, SEEN, 3)."""
     velocity: FloatArray
     """Velocity of the wall there [m/s], shape (n, SEEN, 3)."""
+    arm: FloatArray
+    """From the centre of the body's mass to the place on the wall [m], shape (n, SEEN, 3)."""
     weight: FloatArray
     """Share of a face that no nearer face stands for already [1], shape (n, SEEN)."""
     slope: FloatArray
@@ -65,6 +72,7 @@ def empty_contacts(n: int) -> Contacts:
         distance=np.zeros((n, SEEN)),
         normal=np.zeros((n, SEEN, 3)),
         velocity=np.zeros((n, SEEN, 3)),
+        arm=np.zeros((n, SEEN, 3)),
         weight=np.zeros((n, SEEN)),
         slope=np.zeros((n, SEEN)),
         share=np.zeros(n),
@@ -184,6 +192,10 @@ def find_walls(
             q = contacts.distance[i, f] / spacing
             rest = room / (1.0 - contacts.weight[i, f] * read_table(share_table, q))
             contacts.slope[i, f] = rest * contacts.weight[i, f] * read_table(slope_table, q) / spacing
+            b = contacts.body[i, f]
+            for c in range(3):
+                foot = position[i, c] - contacts.distance[i, f] * contacts.normal[i, f, c]
+                contacts.arm[i, f, c] = foot - bodies.centre[b, c]
         contacts.share[i] = 1.0 - room
 
 

@@ -68,6 +68,7 @@ class Flowing(Phenomenon):
         self._elapsed += 1
         particles = self.liquid.particles
         if self._walls.refresh(state):
+            self.liquid.forget_pushes()
             self._force = np.zeros((len(self._walls.ids), 6))
         elif self._elapsed < self._ticks and self._walls.way(state) < COURANT * particles.spacing:
             return
@@ -86,10 +87,11 @@ class Flowing(Phenomenon):
             begun = self._walls.at(position + velocity * (dt * k / count), rotation, velocity, spin)
             impulse += self.liquid.step(dt / count, self._walls.solids, begun, end if k == count - 1 else begun)
         force = impulse / dt
-        # A body that is light against the liquid would shake under a force that answers its own last motion.
+        # One that is held does not yield; if it is light against the liquid it would shake under a force that
+        # answers its own last motion.
         mass = state.model.body_mass[self._walls.ids]
         free = self.liquid.particles.mass[self.liquid.particles.holder == FREE].sum()
-        share = (mass / np.maximum(mass + free, 1e-12))[:, None]
+        share = np.where(self._walls.yields, 1.0, mass / np.maximum(mass + free, 1e-12))[:, None]
         self._force += share * (force - self._force)
 
     def _push(self, state: State) -> None:
