@@ -89,7 +89,8 @@ class Tank:
         self.liquid = Liquid(self.particles, gravity)
         self.time = 0.0
         """[s]"""
-        self._motions = [motion for _, motion in walls]
+        self._motions: list[Motion] = [motion for _, motion in walls]
+        self._frozen: float | None = None
         parts = [solids_as_arrays(shape) for shape, _ in walls]
         self._solids = union_of(parts)
         self._first = np.cumsum([0, *(len(part.kind) for part in parts)]).astype(np.int64)
@@ -117,11 +118,11 @@ class Tank:
         """Let the liquid come to rest where the walls are now, with at least this viscosity [Pa s]."""
         own, began = self.particles.viscosity, self.time
         self.particles.viscosity = np.maximum(own, viscosity)
-        motions, frozen = self._motions, [motion(began) for motion in self._motions]
-        self._motions = [lambda _, pose=pose: pose for pose in frozen]
+        self._frozen = began
         while self.time - began < duration:
             self.step()
-        self._motions, self.time = motions, began
+        self._frozen = None
+        self.time = began
         self.particles.viscosity = own
         self.velocity[:] = 0.0
 
@@ -173,6 +174,8 @@ class Tank:
         return total / duration
 
     def _poses(self, time: float) -> tuple[FloatArray, FloatArray]:
+        if self._frozen is not None:
+            time = self._frozen
         poses = [motion(time) for motion in self._motions]
         return (
             np.array([position for position, _ in poses]).reshape(-1, 3),
@@ -198,6 +201,9 @@ class Tank:
             position=np.ascontiguousarray(position),
             velocity=np.ascontiguousarray(velocity),
             spin=np.ascontiguousarray(spin),
+            centre=np.ascontiguousarray(position),
+            # What is moved by a test does not yield.
+            mobility=np.zeros((count, 10)),
         )
 
 
@@ -247,7 +253,8 @@ def lattice(low: Triple, high: Triple, spacing: float) -> FloatArray:
     axes: list[FloatArray] = []
     for a, b in zip(low, high, strict=True):
         count = max(round((b - a) / spacing), 1)
-        axes.append((a + b) / 2 + (np.arange(count) - (count - 1) / 2) * spacing)
+        half = (count - 1) / 2 * spacing
+        axes.append(np.linspace((a + b) / 2 - half, (a + b) / 2 + half, count))
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
     return grid.reshape(-1, 3)
 
@@ -268,7 +275,7 @@ def filled_cup(
     position, rotation = pose or still(0.0)
     top = height or 2 * depth
     reach = math.hypot(radius, top + wall)
-    points = lattice((-reach,) * 3, (reach,) * 3, spacing) + position
+    points = lattice((-reach, -reach, -reach), (reach, reach, reach), spacing) + position
     if pose is None:
         points[:, 2] += wall + spacing / 2 - points[points[:, 2] > wall, 2].min()
     local = (points - position) @ rotation
