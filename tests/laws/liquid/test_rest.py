@@ -31,7 +31,11 @@ def test_the_table_bears_the_weight_of_a_cup_and_its_water_where_they_stand() ->
     cup1, liq1 = log.things[log.index("cup1")], log.things[log.index("liq1")]
     rows = (log.contacts.a == log.index("cup1")) | (log.contacts.b == log.index("cup1"))
     rows &= log.contacts.tick >= 400
-    force = np.where(log.contacts.a[rows] == log.index("cup1"), -1.0, 1.0)[:, None] * log.contacts.force[rows] / (log.tick_count - 400)
+    force = (
+        np.where(log.contacts.a[rows] == log.index("cup1"), -1.0, 1.0)[:, None]
+        * log.contacts.force[rows]
+        / (log.tick_count - 400)
+    )
     total = force.sum(axis=0)
     moment = np.cross(log.contacts.point[rows], force).sum(axis=0)
     weight = 9.81 * (cup1.mass + liq1.mass)
@@ -43,7 +47,7 @@ def test_the_table_bears_the_weight_of_a_cup_and_its_water_where_they_stand() ->
 
 @pytest.mark.parametrize("angle", [20.0, 35.0])
 def test_a_tilted_cup_feels_the_torque_of_the_water_off_its_centre(angle: float) -> None:
-    """1350 particles of 5 mm: force within 1 % of the weight, torque within 3 % of weight times lever, nothing sideways."""
+    """1350 particles of 5 mm: force within 1 % of the weight, torque within 3 % of weight times lever."""
     pose = (np.zeros(3), turned("y", math.radians(angle)))
     tank = Tank([(cup(RADIUS, 0.09), lambda _: pose)], filled_cup(RADIUS, 0.045, SPACING, pose=pose), SPACING)
     tank.settle()
@@ -82,7 +86,7 @@ def test_water_keeps_its_height_for_ten_seconds() -> None:
 
 
 def test_a_free_blob_keeps_its_momentum() -> None:
-    """1000 particles of water without walls or weight, thrown about at 0.1 m/s; pair forces are exact to single precision."""
+    """1000 particles of water without walls or weight, thrown about at 0.1 m/s: to single precision."""
     generator = np.random.default_rng(1)
     places = lattice((-0.02, -0.02, -0.02), (0.02, 0.02, 0.02), 0.004)
     tank = Tank([], places + generator.normal(0.0, 2e-4, places.shape), 0.004, gravity=NONE)
