@@ -18,12 +18,17 @@ FREE_FREEDOMS = 6
 """Degrees of freedom of a body that moves freely."""
 
 
+GREATEST_CHANGE = 20.0
+"""Acceleration with which a body may be taken to go on [m/s^2]."""
+
+
 class WallBodies:
     """What the particles of a run may touch."""
 
     def __init__(self, state: State) -> None:
         """Take the bodies as they are now for where the first step begins."""
         self._version = -1
+        self._last = np.zeros((0, 6))
         self.solids: Solids
         """The walls of all bodies."""
         self.ids: IntArray
@@ -45,7 +50,7 @@ class WallBodies:
                 continue
             # The own shape of an intact whole stands for its pieces.
             whole = state.world.is_body(things[carrier])
-            among = [int(carrier)] if whole else np.flatnonzero(state.carrier == carrier).tolist()
+            among: list[int] = [int(carrier)] if whole else np.flatnonzero(state.carrier == carrier).tolist()
             carried = [i for i in among if things[i].shape.geoms]
             made = [shifted(solids_as_arrays(things[i].shape), state.offsets[i]) for i in carried]
             if not made:
@@ -59,6 +64,7 @@ class WallBodies:
         self._first = np.array(first, dtype=np.int64)
         self._balls = np.array(balls).reshape(-1, 4)
         self._position, self._rotation = self._poses(state)
+        self._last = np.zeros((0, 6))
         self._weigh(state)
         return True
 
@@ -97,7 +103,24 @@ class WallBodies:
         skew = np.stack(
             [turn[:, 2, 1] - turn[:, 1, 2], turn[:, 0, 2] - turn[:, 2, 0], turn[:, 1, 0] - turn[:, 0, 1]], axis=1
         )
-        return old_position, old_rotation, velocity, skew / (2 * dt)
+        spin = skew / (2 * dt)
+        return old_position, old_rotation, *self._carried_on(velocity, spin, dt)
+
+    def _carried_on(self, velocity: FloatArray, spin: FloatArray, dt: float) -> tuple[FloatArray, FloatArray]:
+        """Return the velocities with which bodies that yield go on if the liquid pushes them as before.
+
+        The liquid then changes the velocity that they have next, as it will be, and not the one that they had.
+        """
+        now = np.concatenate([velocity, spin], axis=1)
+        change = np.zeros_like(now)
+        if len(self._last) == len(now):
+            change = (now - self._last) * self.yields[:, None]
+            # A landing is no acceleration that goes on.
+            size = np.linalg.norm(change[:, :3], axis=1, keepdims=True)
+            change *= np.minimum(1.0, GREATEST_CHANGE * dt / np.maximum(size, 1e-12))
+        self._last = now
+        now = now + change
+        return now[:, :3], now[:, 3:]
 
     def at(self, position: FloatArray, rotation: FloatArray, velocity: FloatArray, spin: FloatArray) -> Bodies:
         """Return the bodies at given poses and velocities."""

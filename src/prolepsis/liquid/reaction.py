@@ -128,16 +128,15 @@ def add_drag(
             x = velocity[i, 0] - wall[0] - (v[0] + v[4] * arm[2] - v[5] * arm[1])
             y = velocity[i, 1] - wall[1] - (v[1] + v[5] * arm[0] - v[3] * arm[2])
             z = velocity[i, 2] - wall[2] - (v[2] + v[3] * arm[1] - v[4] * arm[0])
-            into = x * normal[0] + y * normal[1] + z * normal[2]
             k = slip[i, f]
             _add(
                 bodies[contacts.body[i, f]],
                 position[i],
                 normal,
                 contacts.distance[i, f],
-                k * (x - into * normal[0]),
-                k * (y - into * normal[1]),
-                k * (z - into * normal[2]),
+                k * x,
+                k * y,
+                k * z,
             )
 
 

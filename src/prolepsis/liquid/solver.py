@@ -23,6 +23,8 @@ from prolepsis.things import FloatArray, IntArray
 
 COURANT = 0.8
 """Share of a spacing that the fastest particle may go in one step [1]."""
+GREATEST_GROWTH = 1.5
+"""Factor up to which the last step's impulses are scaled up for a longer one [1]."""
 RIPPLE = 0.4
 """Share of the period of the shortest ripple that a step may take [1]."""
 LONGEST, SHORTEST = 4.0e-3, 1.0e-4
@@ -144,10 +146,12 @@ class Liquid:
         v += dt * (self._gravity + force / mass[:, None])
         calm(x, v, mass, start, end, self._other, self._gradient, min(CALMING_SPEED * dt / spacing, 0.5))
         clock.lap("attraction")
-        impulse = self._impulse[ids] * (dt / self._last)
+        # What a much shorter step had to correct says little of this one.
+        longer = min(dt / self._last, GREATEST_GROWTH)
+        impulse = self._impulse[ids] * longer
         # Before viscosity, or what the last pressures do wrong at single particles would never be damped.
         apply_impulses(impulse, v, 1.0 / mass, start, end, self._other, self._gradient, steepness)
-        guess = self._viscous[ids] * (dt / self._last)
+        guess = self._viscous[ids] * longer
         slip, push = np.zeros((n, SEEN)), np.zeros((n, SEEN))
         if len(self._pushed) != len(reaction):
             self._pushed, self._dragged = np.zeros_like(reaction), np.zeros_like(reaction)

@@ -1,7 +1,7 @@
 """Viscosity in Pa s, implicit in time: conjugate gradients on the velocities.
 
 Neighbours resist coming nearer or parting (the force acts along the line between them, so angular momentum is kept),
-and walls resist sliding along them such that a flow of constant shear is undisturbed.
+and walls resist sliding along them such that a flow of constant shear is undisturbed, and parting from them as much.
 
 Source: Weiler et al., Computer Graphics Forum 37(8):135 (2018), for the pair force; the walls are our own.
 """
@@ -92,22 +92,20 @@ def solve_viscosity(
             q = contacts.distance[i, f] / spacing
             k = contacts.weight[i, f] * read_table(drag_table, q) * viscosity[i] * spacing * dt
             slip[i, f] = k
-            normal, wall = contacts.normal[i, f], contacts.velocity[i, f]
-            along = normal[0] * wall[0] + normal[1] * wall[1] + normal[2] * wall[2]
+            wall, b = contacts.velocity[i, f], contacts.body[i, f]
             for c in range(3):
-                right[i, c] += k * (wall[c] - along * normal[c])
-                diagonal[i, c] += k * (1.0 - normal[c] * normal[c])
-            b = contacts.body[i, f]
+                right[i, c] += k * wall[c]
+                diagonal[i, c] += k
             if inertia[b, 0] > 0.0:
-                x, y, z = wall[0] - along * normal[0], wall[1] - along * normal[1], wall[2] - along * normal[2]
                 arm = contacts.arm[i, f]
-                _add_wrench(body_right[b], arm, -k * x, -k * y, -k * z)
+                _add_wrench(body_right[b], arm, -k * wall[0], -k * wall[1], -k * wall[2])
                 square = arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2]
                 for c in range(3):
-                    body_diagonal[b, c] += k * (1.0 - normal[c] * normal[c])
+                    body_diagonal[b, c] += k
                     body_diagonal[b, c + 3] += k * (square - arm[c] * arm[c])
-    stiffest = 0.0
+    stiffest, walled = 0.0, False
     for i in range(n):
+        walled = walled or contacts.seen[i] > 0
         stiffest = max(stiffest, diagonal[i, 0] / mass[i])
     gentle = stiffest < 1.0 + GENTLE
     found = velocity + guess
@@ -190,12 +188,14 @@ def solve_viscosity(
                 direction[i, c] = conditioned[i, c] + share * direction[i, c]
         size = after
         iteration += 1
-    # What the iterations leave over sums up to a push on the whole, which is given back.
+    # What the iterations leave over sums up to a push on the whole, which is given back if no wall has it.
     for c in range(3):
         left, total = 0.0, 0.0
         for i in range(n):
             left += residual[i, c]
             total += mass[i]
+        if walled:
+            left = 0.0
         for i in range(n):
             found[i, c] += left / total
             guess[i, c] = found[i, c] - velocity[i, c]
@@ -247,15 +247,14 @@ def _multiply(
             sy += along * gy
             sz += along * gz
         for f in range(contacts.seen[i]):
-            normal, k, b = contacts.normal[i, f], slip[i, f], contacts.body[i, f]
+            k, b = slip[i, f], contacts.body[i, f]
             ux, uy, uz = x, y, z
             if inertia[b, 0] > 0.0:
                 v, arm = bodies[b], contacts.arm[i, f]
                 ux -= v[0] + v[4] * arm[2] - v[5] * arm[1]
                 uy -= v[1] + v[5] * arm[0] - v[3] * arm[2]
                 uz -= v[2] + v[3] * arm[1] - v[4] * arm[0]
-            into = normal[0] * ux + normal[1] * uy + normal[2] * uz
-            ux, uy, uz = k * (ux - into * normal[0]), k * (uy - into * normal[1]), k * (uz - into * normal[2])
+            ux, uy, uz = k * ux, k * uy, k * uz
             sx += ux
             sy += uy
             sz += uz
