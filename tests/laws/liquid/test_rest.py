@@ -61,6 +61,7 @@ def test_a_tilted_cup_feels_the_torque_of_the_water_off_its_centre(angle: float)
     assert push[3] == pytest.approx(-tank.weight * lever[1], abs=0.03 * tank.weight * lever[0])
 
 
+@pytest.mark.laws
 def test_water_keeps_its_height_for_ten_seconds() -> None:
     """1847 particles of 5 mm, 60 mm deep: twice the mean height, and the top of the surface, within 3 %, to the end.
 
