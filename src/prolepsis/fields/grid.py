@@ -34,12 +34,14 @@ def grid_of(surface: Surface) -> FloatArray:
 
 def _grid(vertices: FloatArray, triangles: IntArray) -> FloatArray:
     low, high = vertices.min(axis=0), vertices.max(axis=0)
-    step = float((np.prod(np.maximum(high - low, 1e-4)) / NODE_COUNT) ** (1 / 3))
+    extents = np.maximum(high - low, 1e-4)
+    step = math.pow(extents[0] * extents[1] * extents[2] / NODE_COUNT, 1 / 3)
     # Rays through nodes must not run along edges, which meshes have at round numbers.
     origin = low - MARGIN * step - step * np.array([0.137, 0.291, 0.213])
-    shape = np.ceil((high - origin) / step).astype(np.int64) + MARGIN
-    inside = np.zeros(tuple(shape.tolist()), dtype=np.bool_)
-    near = np.full(inside.shape, np.inf)
+    shape: IntArray = np.ceil((high - origin) / step).astype(np.int64) + MARGIN
+    extent = (int(shape[0]), int(shape[1]), int(shape[2]))
+    inside = np.zeros(extent, dtype=np.bool_)
+    near = np.full(extent, np.inf)
     _scan(vertices, triangles, origin, step, near, inside)
     transform = cast("Callable[[BoolArray], FloatArray]", distance_transform_edt)
     far = np.where(inside, transform(inside), transform(~inside)) * step
@@ -60,8 +62,8 @@ def _scan(
         for axis in range(3):
             least = min(a[axis], min(b[axis], c[axis]))
             greatest = max(a[axis], max(b[axis], c[axis]))
-            first[axis] = max(int(math.floor((least - origin[axis]) / step)) - BAND, 0)
-            last[axis] = min(int(math.ceil((greatest - origin[axis]) / step)) + BAND, shape[axis] - 1)
+            first[axis] = max(math.floor((least - origin[axis]) / step) - BAND, 0)
+            last[axis] = min(math.ceil((greatest - origin[axis]) / step) + BAND, shape[axis] - 1)
         for i in range(first[0], last[0] + 1):
             for j in range(first[1], last[1] + 1):
                 for k in range(first[2], last[2] + 1):
@@ -78,7 +80,7 @@ def _scan(
                 if v < 0.0 or w < 0.0 or v + w >= 1.0:
                     continue
                 z = a[2] + v * (b[2] - a[2]) + w * (c[2] - a[2])
-                below = min(int(math.ceil((z - origin[2]) / step)), shape[2])
+                below = min(math.ceil((z - origin[2]) / step), shape[2])
                 for k in range(below):
                     inside[i, j, k] = not inside[i, j, k]
 

@@ -45,7 +45,7 @@ class WallBodies:
         first = [0]
         parts: list[Solids] = []
         balls: list[FloatArray] = []
-        for body, carrier in enumerate(state.body_thing):
+        for body, carrier in enumerate([int(thing) for thing in state.body_thing]):
             if carrier < 0:
                 continue
             # The own shape of an intact whole stands for its pieces.

@@ -21,7 +21,7 @@ from prolepsis.liquid.walls import SEEN, Bodies, empty_contacts, find_walls, kee
 from prolepsis.liquid.yielding import about, inertia_of, response
 from prolepsis.things import FloatArray, IntArray
 
-COURANT = 0.8
+COURANT = 0.5
 """Share of a spacing that the fastest particle may go in one step [1]."""
 GREATEST_GROWTH = 1.5
 """Factor up to which the last step's impulses are scaled up for a longer one [1]."""
@@ -35,7 +35,7 @@ PRESSURE_TOLERANCE = 0.25
 """Mean rate of compression that a step may leave [1/s]."""
 PRESSURE_SWEEPS = (2, 40)
 """Least and greatest number of sweeps of the pressure solver."""
-CALMING_SPEED = 0.2
+CALMING_SPEED = 0.05
 """Speed with which jitter is passed on from neighbour to neighbour [m/s]."""
 VISCOUS_TOLERANCE = 1.0e-3
 """Residual over right-hand side at which the viscous solver ends [1]."""
