@@ -36,8 +36,8 @@ class Solids(NamedTuple):
     span: IntArray
     """First number and count of the solid's own numbers, first number and count of its holes', shape (K, 4)."""
     numbers: FloatArray
-    """Planes (normal, offset), sides of outlines (begin, end, direction, length), holes (position, direction, radius) or grids (origin, step,
-    shape, values), one after the other."""
+    """One after the other: planes (normal, offset), sides of outlines (begin, end, direction, length), holes
+    (position, direction, radius), grids (origin, step, shape, values)."""
 
 
 @njit(cache=True, inline="never")
