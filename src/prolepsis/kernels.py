@@ -24,3 +24,8 @@ def keep_kernels() -> None:
             digest.update(file.read_bytes())
     home = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
     os.environ["NUMBA_CACHE_DIR"] = str(Path(home) / "prolepsis" / f"kernels-{digest.hexdigest()[:16]}")
+
+
+def are_kept() -> bool:
+    """Return whether kernels of these sources have been compiled on this machine before."""
+    return Path(os.environ.get("NUMBA_CACHE_DIR", "")).is_dir()

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from prolepsis.errors import InputError, LogError, ScenarioError, UnknownNameError
+from prolepsis.kernels import are_kept
 from prolepsis.log import Log
 from prolepsis.log_files import read_log_files, write_log_files
 from prolepsis.saved import read_timeline_files, write_timeline_files
@@ -118,6 +119,8 @@ def project(
     from prolepsis.scene import compile_world, compose
     from prolepsis.simulation import simulate
 
+    if not are_kept() and any(knowledge.is_a(name, "Liquid") for name in knowledge.objects):
+        tell("compiling the kernels of liquids, once, in about a minute")
     scene = compose(knowledge, particles=read.particles)
     check_units(read.plan, {name: each.unit for name, each in read.parameters.items()})
     program = read_program(read.bound_plan(), scene)
