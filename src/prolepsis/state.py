@@ -177,13 +177,12 @@ class State:
             points=contact.pos[active],
         )
 
-    def split(self, body_name: str, fragments: Sequence[Sequence[int]], blobs: Sequence[int]) -> None:
+    def split(self, body_name: str, fragments: Sequence[Sequence[int]]) -> None:
         """Replace one rigid body by several that move on as its parts did.
 
         Args:
             body_name: The body that falls apart.
             fragments: The things that each new body consists of; the first gives it its name and frame.
-            blobs: Further things that come free, each a body of its own.
         """
         things = self.world.scene.things
         old = self.data.body(body_name)
@@ -192,7 +191,7 @@ class State:
         identifier = self.model.body(body_name).id
         mujoco.mj_objectVelocity(self.model, self.data, mujoco.mjtObj.mjOBJ_XBODY, identifier, velocity, 0)
         old_thing = int(self.body_thing[identifier])
-        groups = [*fragments, *([blob] for blob in blobs)]
+        groups = fragments
         poses = {i: compose_pose(np.array([*origin, *turn]), self.offsets[i]) for group in groups for i in group}
         for pair in list(self.spec.pairs):
             if body_name in (pair.geomname1.rsplit("/", 1)[0], pair.geomname2.rsplit("/", 1)[0]):

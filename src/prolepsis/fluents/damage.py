@@ -41,14 +41,15 @@ def broken(observation: Observation) -> Iterator[Fact]:
 
 
 def detached_rows(observation: Observation) -> dict[int, IntArray]:
-    """Return the rows of the log's detachments for each topmost whole."""
+    """Return the rows of the log's detachments for each topmost whole, or stuff."""
     things = observation.log.things
     index = {thing.name: i for i, thing in enumerate(things)}
     found: dict[int, list[int]] = {}
     for row, detached in enumerate(observation.log.detachments.thing.tolist()):
         thing = int(detached)
         whole = things[thing].whole
-        while whole is not None and whole in index:
+        # A yolk breaks for itself.
+        while whole is not None and whole in index and "Stuff" not in things[thing].roles:
             thing = index[whole]
             whole = things[thing].whole
         found.setdefault(thing, []).append(row)

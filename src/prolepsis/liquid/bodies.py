@@ -25,8 +25,12 @@ GREATEST_CHANGE = 20.0
 class WallBodies:
     """What the particles of a run may touch."""
 
-    def __init__(self, state: State) -> None:
-        """Take the bodies as they are now for where the first step begins."""
+    def __init__(self, state: State, lightest: float = 0.0) -> None:
+        """Take the bodies as they are now for where the first step begins.
+
+        Pieces of something broken that weigh less than ``lightest`` [kg] are left out.
+        """
+        self._lightest = lightest
         self._version = -1
         self._last = np.zeros((0, 6))
         self.solids: Solids
@@ -46,7 +50,7 @@ class WallBodies:
         parts: list[Solids] = []
         balls: list[FloatArray] = []
         for body, carrier in enumerate([int(thing) for thing in state.body_thing]):
-            if carrier < 0:
+            if carrier < 0 or self._is_shard(state, body, int(carrier)):
                 continue
             # The own shape of an intact whole stands for its pieces.
             whole = state.world.is_body(things[carrier])
@@ -80,6 +84,10 @@ class WallBodies:
             turn = data.ximat[body].reshape(3, 3)
             self._mobility[k, 0] = 1.0 / model.body_mass[body]
             self._mobility[k, 1:] = ((turn / model.body_inertia[body]) @ turn.T).ravel()
+
+    def _is_shard(self, state: State, body: int, carrier: int) -> bool:
+        pieces = "Piece" in state.world.scene.things[carrier].roles
+        return pieces and float(state.model.body_mass[body]) < self._lightest
 
     def _poses(self, state: State) -> tuple[FloatArray, FloatArray]:
         # After a step these are a step old.

@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
-from prolepsis.phenomena import absorbing, breaking, flowing, wetting
+from prolepsis.phenomena import absorbing, breaking, flowing, membrane, opening, wetting
 from prolepsis.phenomena.phenomenon import Attach, Detachment, Draw, Phenomenon
 
-PHENOMENA: tuple[Attach, ...] = (breaking.attach, wetting.attach, flowing.attach, absorbing.attach)
+PHENOMENA: tuple[Attach, ...] = (
+    breaking.attach,
+    flowing.attach,
+    opening.attach,
+    membrane.attach,
+    absorbing.attach,
+    wetting.attach,
+)
 """All phenomena in the order in which they run; a later one may read what an earlier one did."""
 
 __all__ = ["PHENOMENA", "Attach", "Detachment", "Draw", "Phenomenon"]

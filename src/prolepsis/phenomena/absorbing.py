@@ -12,10 +12,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from prolepsis.engine import mujoco
-from prolepsis.fields.signed_distance import field_of
 from prolepsis.liquid.particles import ParticleState
 from prolepsis.log import FREE
 from prolepsis.phenomena.carried_mass import CarriedMass
+from prolepsis.phenomena.nearby import distance_to, solids_of
 from prolepsis.phenomena.phenomenon import Draw, Phenomenon
 from prolepsis.phenomena.sponge_law import SpongeLaw
 from prolepsis.phenomena.sponge_surface import SpongeSurface, nearest_of
@@ -204,17 +204,9 @@ class Absorbing(Phenomenon):
     def _clear(self, state: State, places: FloatArray, room: float) -> BoolArray:
         """Return which world points are farther than ``room`` [m] from all other bodies."""
         found = np.ones(len(places), dtype=np.bool_)
-        for i, thing in enumerate(state.world.scene.things):
-            carrier = int(state.carrier[i])
-            if i == self.index or carrier < 0 or not thing.shape.geoms or not found.any():
-                continue
-            if carrier != i and state.world.is_body(state.world.scene.things[carrier]):
-                continue  # the own shape of an intact whole stands for its pieces
-            pose = state.pose(thing.name)
-            turn = np.zeros(9)
-            mujoco.mju_quat2Mat(turn, pose[3:])
-            local = (places[found] - pose[:3]) @ turn.reshape(3, 3)
-            found[found] = field_of(thing.shape).distance(local) > room
+        for i in solids_of(state):
+            if i != self.index and found.any():
+                found[found] = distance_to(state, i, places[found]) > room
         return found
 
     def _up(self, state: State) -> FloatArray:

@@ -87,9 +87,6 @@ class Breaking(Phenomenon):
         self.shell_name = shell.name
         self.index = names[thing.name]
         self.pieces = [names[f"{shell.name}/piece{k}"] for k in range(PIECE_COUNT)]
-        self.blobs = [
-            i for i, t in enumerate(things) if "Blob" in t.roles and things[names[str(t.whole)]].whole == thing.name
-        ]
         a, b, c = thing.shape.geoms[0].size
         quantities = shell.quantities
         self.weakening = quantities["crackTipWeakening"]
@@ -250,7 +247,7 @@ class Breaking(Phenomenon):
                 new.append(fragment)
                 continue
             groups = [[self.pieces[int(k)] for k in part.nodes] for part in parts]
-            state.split(fragment.body, groups, self.blobs if self.intact else [])
+            state.split(fragment.body, groups)
             self.intact = False
             for part, group in zip(parts, groups, strict=True):
                 lead = state.world.scene.things[group[0]].name

@@ -21,6 +21,9 @@ TICK = MAX_STEP
 """The liquid is looked at every tick [s]; a step of it takes several, one, or a part of one."""
 FAR = 2.0
 """Distance from all things at the start beyond which a particle is parked [m]."""
+LIGHTEST = 50.0
+"""Pieces of a shell that weigh less than so many particles are no walls: they are thinner than a particle, and would be
+thrown about by forces that so few cannot resolve."""
 SETTLING_TIME = 0.24
 """A liquid that was filled in on a lattice settles for this long before the run begins [s]."""
 SETTLING_VISCOSITY = 2.0
@@ -44,10 +47,11 @@ class Flowing(Phenomenon):
         places = np.array([thing.position for thing in things if thing.shape.geoms])
         self._centre = places.mean(axis=0) if len(places) else np.zeros(3)
         self._far = FAR + float(np.linalg.norm(places - self._centre, axis=1).max(initial=0.0))
-        self._walls = WallBodies(state)
+        self._walls = WallBodies(state, LIGHTEST * float(self.liquid.particles.mass.mean()))
         self._force = np.zeros((len(self._walls.ids), 6))
         self._elapsed = 0
         self._ticks = 1
+        self._resting = False
         self._settle()
 
     def _settle(self) -> None:
@@ -65,8 +69,18 @@ class Flowing(Phenomenon):
 
     def tick(self, state: State) -> None:
         """Move the liquid on, if a step of it has passed."""
-        self._elapsed += 1
         particles = self.liquid.particles
+        if not particles.free.any():
+            self._rest(state)
+            return
+        if self._resting:
+            # Where the bodies are now, the first step begins.
+            self._walls.refresh(state)
+            self._walls.moved(state, TICK)
+            self._force = np.zeros((len(self._walls.ids), 6))
+            self.liquid.forget_pushes()
+            self._resting = False
+        self._elapsed += 1
         if self._walls.refresh(state):
             self.liquid.forget_pushes()
             self._force = np.zeros((len(self._walls.ids), 6))
@@ -77,6 +91,13 @@ class Flowing(Phenomenon):
         self._ticks = max(1, int(self.liquid.next_step() / TICK + 1e-9))
         self._push(state)
         self._park(state)
+
+    def _rest(self, state: State) -> None:
+        """Do nothing while nothing flows; the first time, let go of the bodies."""
+        if not self._resting:
+            state.data.xfrc_applied[:] = 0.0
+            self._force[:] = 0.0
+            self._elapsed, self._ticks, self._resting = 0, 1, True
 
     def _step(self, state: State, dt: float) -> None:
         position, rotation, velocity, spin = self._walls.moved(state, dt)

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-import numpy as np
-
+from prolepsis.phenomena.nearby import distance_to, solids_of
 from prolepsis.phenomena.phenomenon import Draw, Phenomenon
 from prolepsis.scene.world import friction_of
 from prolepsis.state import State
+
+LOOK_TICKS = 50
+"""Surfaces are looked at every so many ticks."""
+TOUCH_REACH = 0.75
+"""Distance of a particle's centre from a surface that it wets [spacings]; at rest on it, it is a half."""
 
 
 class Wetting(Phenomenon):
@@ -16,24 +20,25 @@ class Wetting(Phenomenon):
         """Attach to a simulation."""
         self._things = state.world.scene.things
         self._names = {thing.name: i for i, thing in enumerate(self._things)}
-        liquids = {thing.name for thing in self._things if "Liquid" in thing.roles}
-        self._liquid = np.array([thing.whole in liquids and "Blob" in thing.roles for thing in self._things])
-        self._wet = np.array(["Blob" in thing.roles for thing in self._things])
+        self._wet: set[int] = set()
+        self._ticks = 0
 
     def tick(self, state: State) -> None:
-        """Wet what touches a blob of a liquid."""
-        if not state.version or not state.data.ncon:
-            return  # nothing has broken, so nothing has come free
-        contact = state.data.contact
-        pairs = state.body_thing[state.model.geom_bodyid[contact.geom[contact.efc_address >= 0]]]
-        pairs = pairs[(pairs >= 0).all(axis=1)]
-        touching = self._liquid[pairs] & ~self._wet[pairs[:, ::-1]]
-        for index in set(pairs[:, ::-1][touching].tolist()):
-            self._wetten(state, index)
+        """Wet what touches a liquid."""
+        self._ticks += 1
+        particles = state.particles
+        if particles is None or self._ticks % LOOK_TICKS or not particles.free.any():
+            return
+        places = particles.position[particles.free]
+        for index in solids_of(state):
+            if index in self._wet:
+                continue
+            if float(distance_to(state, index, places).min()) < TOUCH_REACH * particles.spacing:
+                self._wetten(state, index)
 
     def _wetten(self, state: State, index: int) -> None:
         thing = self._things[index]
-        self._wet[index] = True
+        self._wet.add(index)
         names = [thing.name]
         while thing.whole is not None:
             names.append(thing.whole)
@@ -50,4 +55,4 @@ class Wetting(Phenomenon):
 def attach(state: State, draw: Draw) -> list[Wetting]:
     """Return the one controller of a scene in which there is a liquid."""
     del draw
-    return [Wetting(state)] if any("Liquid" in thing.roles for thing in state.world.scene.things) else []
+    return [Wetting(state)] if state.particles is not None else []

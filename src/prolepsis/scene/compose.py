@@ -12,6 +12,7 @@ from prolepsis.errors import KnowledgeError
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.robots.hand import HAND
 from prolepsis.scenario_file import DEFAULT_PARTICLES
+from prolepsis.scene.egg_inside import egg_pools
 from prolepsis.scene.egg_things import egg_things
 from prolepsis.scene.liquids import is_liquid, liquid_thing, place_of, refuse_idle
 from prolepsis.scene.placing import resting_height
@@ -54,8 +55,8 @@ ATTRIBUTES = {"wet": "WetThing", "dirty": "DirtyThing", "broken": "BrokenThing"}
 SLENDEREST = 0.5
 """Least breadth over length of an egg that is cut into pieces [1]."""
 GRIPPER_SHAPE, MESH_SHAPE = "parallelGripper", "mesh"
-STUFFS = {"EggYolk": "yolk", "EggWhite": "white"}
-"""Stuffs that are modelled as balls inside an egg, and their sort."""
+STUFFS = {"EggYolk": (0.98, 0.72, 0.08, 1.0), "EggWhite": (0.93, 0.93, 0.82, 0.75)}
+"""What flows out of an egg, from the middle outwards, and its colour, for pictures only."""
 
 
 def compose(kb: KnowledgeBase, *, particles: int = DEFAULT_PARTICLES) -> Scene:
@@ -91,7 +92,19 @@ def compose(kb: KnowledgeBase, *, particles: int = DEFAULT_PARTICLES) -> Scene:
         solids = {name: tuple(t for t in made[name] if not t.roles & HIDDEN_ROLES) for name in wholes}
         filled, pools = fill(flowing, places, solids, particles)
         made |= {each.name: (each,) for each in filled}
+    spacing = next((pool.spacing for pool in pools), None)
+    for name in wholes:
+        if kb.is_a(name, "Egg"):
+            made[name], inside = _with_inside(made[name], spacing)
+            pools += inside
     return Scene(things=tuple(thing for name in names for thing in made[name]), domain=kb.domain(), pools=pools)
+
+
+def _with_inside(things: tuple[Thing, ...], spacing: float | None) -> tuple[tuple[Thing, ...], tuple[Pool, ...]]:
+    """Return an egg with the volumes of its stuffs, and their particles."""
+    stuffs, pools = egg_pools(things[0], [thing for thing in things if "Liquid" in thing.roles], spacing)
+    known = {stuff.name: stuff for stuff in stuffs}
+    return tuple(known.get(thing.name, thing) for thing in things), pools
 
 
 def _roles(kb: KnowledgeBase, name: str) -> frozenset[str]:
@@ -238,9 +251,9 @@ def _egg(kb: KnowledgeBase, egg: Thing) -> tuple[Thing, ...]:
     parts = [_part(kb, part, egg) for part in kb.parts(egg.name)]
     shell = next(part for part in parts if part.name == shells[0])
     stuffs = tuple(
-        (part, sort)
+        replace(part, shape=Shape(colour=colour))
+        for cls, colour in STUFFS.items()
         for part in parts
-        for cls, sort in STUFFS.items()
         if kb.is_a(part.name, cls) and part.name != shell.name
     )
     # What touches the world is the shell, so the whole is as slippery as that.

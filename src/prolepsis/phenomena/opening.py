@@ -1,0 +1,67 @@
+"""Opening: what an egg has inside goes with it until its shell falls apart, and then goes on as it did."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from prolepsis.fields.solids import matrix
+from prolepsis.log import FREE
+from prolepsis.monitors.frames import PERIOD
+from prolepsis.phenomena.phenomenon import Draw, Phenomenon
+from prolepsis.state import State
+from prolepsis.things import Thing
+
+
+def attach(state: State, draw: Draw) -> Sequence[Phenomenon]:
+    """Return a controller for each thing that encloses particles and may break."""
+    del draw
+    particles = state.particles
+    if particles is None:
+        return []
+    things = state.world.scene.things
+    holders = set(particles.holder.tolist())
+    return [Opening(state, thing) for i, thing in enumerate(things) if i in holders and "Breakable" in thing.roles]
+
+
+class Opening(Phenomenon):
+    """The controller of what is inside one breakable thing."""
+
+    def __init__(self, state: State, thing: Thing) -> None:
+        """Attach to a thing that holds particles."""
+        assert state.particles is not None
+        self._name = thing.name
+        self._index = state.world.scene.index(thing.name)
+        self._inside = np.flatnonzero(state.particles.holder == self._index)
+        body = state.data.body(thing.name)
+        turn = body.xmat.reshape(3, 3)
+        self._places = (state.particles.position[self._inside] - body.xpos) @ turn
+        self._version = -1
+        self._pose, self._motion = np.zeros(7), np.zeros(6)
+        self._ticks = 0
+
+    def tick(self, state: State) -> None:
+        """Carry what is inside, or let it out."""
+        particles = state.particles
+        if particles is None or not len(self._inside):
+            return
+        self._ticks += 1
+        if state.carrier[self._index] >= 0:
+            if self._version != state.version:
+                self._version = state.version
+                joint = state.model.joint(self._name)
+                self._place, self._speed = int(joint.qposadr[0]), int(joint.dofadr[0])
+            data = state.data
+            self._pose = data.qpos[self._place : self._place + 7].copy()
+            self._motion = data.qvel[self._speed : self._speed + 6].copy()
+            if self._ticks % PERIOD == 0:
+                particles.position[self._inside] = self._pose[:3] + self._places @ matrix(self._pose[3:]).T
+            return
+        turn = matrix(self._pose[3:])
+        arms = self._places @ turn.T
+        particles.position[self._inside] = self._pose[:3] + arms
+        # Shells break in an impact: what is inside goes on as fast as it was before.
+        particles.velocity[self._inside] = self._motion[:3] + np.cross(turn @ self._motion[3:], arms)
+        particles.holder[self._inside] = FREE
+        self._inside = self._inside[:0]
