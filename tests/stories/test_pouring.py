@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from functools import cache
 from pathlib import Path
 
 import pytest
 
-from prolepsis.projection import Projection, project
+from prolepsis.projection import project
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -26,31 +25,23 @@ STATED = {
 """What the paper states: (a) holes, (b) upside down, (c) honey, upside down, (d) done properly, (e) filled already."""
 
 
-@cache
-def poured(variant: str) -> Projection:
-    return project(EXAMPLES / f"pour_{variant}.toml")
+LEAKING, OVERFLOWING = {"a"}, {"e"}
+"""Variants in which cup2 leaks, or overflows."""
 
 
 @pytest.mark.parametrize("variant", sorted(STATED))
-def test_the_papers_query_binds_what_the_paper_states(variant: str) -> None:
-    found = {str(answer["F"]) for answer in poured(variant).ask(QUERY)}
+def test_pouring_ends_as_the_paper_states(variant: str) -> None:
+    poured = project(EXAMPLES / f"pour_{variant}.toml")
+    found = {str(answer["F"]) for answer in poured.ask(QUERY)}
     assert {fact for fact in found if "liq1" in fact} == STATED[variant]
-
-
-@pytest.mark.parametrize("variant", sorted(STATED))
-def test_nothing_is_touched_but_the_cup_in_the_hand(variant: str) -> None:
-    touching = poured(variant).ask("holds(contacts(A, B), T), \\+ B = liq1, \\+ A = liq1")
-    pairs = {frozenset((str(a["A"]), str(a["B"]))) for a in touching}
-    assert frozenset(("cup1", "cup2")) not in pairs
-    assert frozenset(("hand1", "cup2")) not in pairs
+    assert bool(poured.ask("occurs(leaking(cup2, _), T)")) == (variant in LEAKING)
+    assert bool(poured.ask("occurs(overflowing(cup2, _), T)")) == (variant in OVERFLOWING)
+    # The liquid alone gets from cup to cup: neither the cup in the hand nor the hand touches the other.
+    pairs = {frozenset((str(a["A"]), str(a["B"]))) for a in poured.ask("holds(contacts(A, B), T)")}
     assert frozenset(("cup1", "hand1")) in pairs
+    assert not pairs & {frozenset(("cup1", "cup2")), frozenset(("hand1", "cup2"))}
 
 
-def test_a_cup_with_holes_leaks_and_a_sound_one_does_not() -> None:
-    assert poured("a").ask("occurs(leaking(cup2, liq1), T)")
-    assert not poured("d").ask("occurs(leaking(cup2, _), T)")
-
-
-def test_a_full_cup_overflows_and_an_empty_one_does_not() -> None:
-    assert poured("e").ask("occurs(overflowing(cup2, _), T)")
-    assert not poured("d").ask("occurs(overflowing(cup2, _), T)")
+def test_warm_honey_runs_off_where_cool_honey_stays() -> None:
+    poured = project(EXAMPLES / "pour_c.toml", settings={"liq1.temperature": 40})
+    assert "supports(table1,liq1)" in {str(answer["F"]) for answer in poured.ask(QUERY)}
