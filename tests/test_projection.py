@@ -6,6 +6,7 @@ import os
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -46,7 +47,8 @@ def made(place: Path) -> Projection:
 def test_a_projection_comes_back_without_simulating(made: Projection, place: Path) -> None:
     loaded = Projection.load(place / "run")
     assert loaded.timeline == made.timeline
-    assert loaded.scene == made.scene
+    # Where the particles were at the start is in the log.
+    assert loaded.scene == replace(made.scene, pools=())
     assert loaded.world == made.world
     assert loaded.log.things == made.log.things
     assert loaded.scenario.plan == made.scenario.plan
