@@ -136,7 +136,25 @@ def si_symbol(unit: Unit) -> str:
     return " ".join(name if power == 1 else f"{name}^{power}" for name, power in names if power)
 
 
-_SI_NAMES = ("1", "kg", "m", "s", "K", "rad", "rad/s", "N", "N/m", "Pa", "Pa s", "J", "kg/m3", "m/s", "m/s2", "m3", "Hz")
+_SI_NAMES = (
+    "1",
+    "kg",
+    "m",
+    "s",
+    "K",
+    "rad",
+    "rad/s",
+    "N",
+    "N/m",
+    "Pa",
+    "Pa s",
+    "J",
+    "kg/m3",
+    "m/s",
+    "m/s2",
+    "m3",
+    "Hz",
+)
 
 
 def to_si(value: float, unit: str, expected: str | None = None) -> float:
