@@ -14,10 +14,10 @@ test: setup-dev  ## ruff, pyright, import-linter, pytest
 	.venv/bin/ruff format --check
 	.venv/bin/pyright
 	.venv/bin/lint-imports --no-cache
-	.venv/bin/pytest -q -n 2
+	.venv/bin/pytest -q -n 2 --dist worksteal
 
 laws: setup-dev  ## the longer suites
-	.venv/bin/pytest -q -n 2 -m laws
+	.venv/bin/pytest -q -n 2 --dist worksteal -m laws
 
 bench: setup-dev  ## the benchmarks, as one table
 	@$(PY) benchmarks/run.py

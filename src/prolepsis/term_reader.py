@@ -22,7 +22,7 @@ _TOKEN = re.compile(
     |(?P<name>[^\W\d_]\w*)
     |(?P<quoted>'(?:\\x[0-9a-fA-F]+\\|\\[0-7]+\\|\\.|''|[^\\'])*')
     |(?P<string>"(?:\\x[0-9a-fA-F]+\\|\\[0-7]+\\|\\.|""|[^\\"])*")
-    |(?P<symbol>[{re.escape(SYMBOLS)}]+|;|!|[^\w\s\x00-\x7f]+)
+    |(?P<symbol>(?:[{re.escape(SYMBOLS)}]|[^\w\s\x00-\x7f])+|;|!)
     |(?P<punctuation>[()\[\]{{}},|])
     """,
     re.VERBOSE | re.DOTALL,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from prolepsis.logic.session import Session
@@ -73,6 +73,7 @@ VALUES: st.SearchStrategy[Value] = st.recursive(
 
 @settings(deadline=None, max_examples=100)
 @given(st.lists(VALUES, min_size=1, max_size=10))
+@example([":÷"])
 def test_answers_come_back_as_they_were_sent(values: list[Value]) -> None:
     goal = ", ".join(f"X{number} = ({format_value(value)})" for number, value in enumerate(values))
     assert [*SESSION.ask(EMPTY, goal)[0].values()] == values

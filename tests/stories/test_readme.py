@@ -16,7 +16,7 @@ SAME_TIME = 0.02
 
 
 def test_the_answer_in_the_readme_is_true(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    shown = re.search(r"\$ prolepsis ask out/drop '(.*)'\n(.*?)\n```", (ROOT / "README.md").read_text(), re.DOTALL)
+    shown = re.search(r"\$ prolepsis ask out/drop '(.*?)'\n(.*?)\n```", (ROOT / "README.md").read_text(), re.DOTALL)
     assert shown is not None
     assert main(["project", str(ROOT / "examples" / "dropped_egg.toml"), "--out", str(tmp_path / "drop")]) == 0
     capfd.readouterr()
