@@ -42,6 +42,7 @@ def test_pouring_ends_as_the_paper_states(variant: str) -> None:
     assert not pairs & {frozenset(("cup1", "cup2")), frozenset(("hand1", "cup2"))}
 
 
+@pytest.mark.laws
 def test_warm_honey_runs_off_where_cool_honey_stays() -> None:
     poured = project(EXAMPLES / "pour_c.toml", settings={"liq1.temperature": 40})
     assert "supports(table1,liq1)" in {str(answer["F"]) for answer in poured.ask(QUERY)}
