@@ -16,13 +16,9 @@ import importlib
 import os
 from typing import TYPE_CHECKING, Any
 
-from prolepsis.kernels import keep_kernels
-
 # The matrices here are small: more threads of the linear algebra library only get in each other's way. Whoever
 # wants them sets the variable; it counts when numpy has not been imported yet.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-
-keep_kernels()
 
 if TYPE_CHECKING:
     from prolepsis.campaign import Outcomes, sweep

@@ -119,7 +119,7 @@ def project(
     from prolepsis.scene import compile_world, compose
     from prolepsis.simulation import simulate
 
-    if not are_kept() and any(knowledge.is_a(name, "Liquid") for name in knowledge.objects):
+    if any(knowledge.is_a(name, "Liquid") for name in knowledge.objects) and not are_kept():
         tell("compiling the kernels of liquids, once, in about a minute")
     scene = compose(knowledge, particles=read.particles)
     check_units(read.plan, {name: each.unit for name, each in read.parameters.items()})

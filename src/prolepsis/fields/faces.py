@@ -10,8 +10,8 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
+from prolepsis.kernels import njit
 from prolepsis.things import FloatArray, IntArray
 
 PLANE, SPHERE, CAPSULE, ELLIPSOID, CYLINDER, BOX, HULL, PROFILE, GRID = range(9)

@@ -8,10 +8,10 @@ from functools import lru_cache
 from typing import cast
 
 import numpy as np
-from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 from scipy.ndimage import distance_transform_edt  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
 from prolepsis.fields.kept import kept_array
+from prolepsis.kernels import njit
 from prolepsis.things import BoolArray, FloatArray, IntArray, Surface
 
 NODE_COUNT = 250_000

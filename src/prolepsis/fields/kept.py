@@ -5,11 +5,11 @@ from __future__ import annotations
 import hashlib
 import os
 from collections.abc import Callable, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from prolepsis.cache import cache_root
 from prolepsis.things import FloatArray
 
 
@@ -25,8 +25,7 @@ def kept_array(kind: str, sources: Sequence[Any], compute: Callable[[], FloatArr
     for source in sources:
         array = np.ascontiguousarray(source)
         digest.update(str((array.dtype, array.shape)).encode() + array.tobytes())
-    home = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    file = Path(home) / "prolepsis" / f"{kind}-{digest.hexdigest()[:32]}.npy"
+    file = cache_root() / f"{kind}-{digest.hexdigest()[:32]}.npy"
     try:
         return np.load(file, allow_pickle=False)
     except (OSError, ValueError, EOFError):

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
 from prolepsis.fields.faces import (
     BOX,
@@ -26,6 +25,7 @@ from prolepsis.fields.faces import (
 from prolepsis.fields.grid import grid_of
 from prolepsis.fields.hull import hull_planes
 from prolepsis.fields.solids import Solid, matrix, solid_of
+from prolepsis.kernels import njit
 from prolepsis.things import FloatArray, IntArray, Shape
 
 PRIMITIVES = {

@@ -9,6 +9,8 @@ import tempfile
 from pathlib import Path
 from typing import cast
 
+from prolepsis.cache import cache_root
+
 CACHE_VARIABLE = "PROLEPSIS_CACHE"
 """Environment variable: folder of the kept answers, or empty to keep none."""
 
@@ -17,8 +19,7 @@ def _cache_folder() -> Path | None:
     chosen = os.environ.get(CACHE_VARIABLE)
     if chosen is not None:
         return Path(chosen) if chosen else None
-    base = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
-    return Path(base) / "prolepsis" / "types"
+    return cache_root() / "types"
 
 
 def read_answer(key: str) -> list[int] | str | None:

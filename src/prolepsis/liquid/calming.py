@@ -8,8 +8,8 @@ the flow around them does not explain. A flow of constant shear or rotation is l
 from __future__ import annotations
 
 import numpy as np
-from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
+from prolepsis.kernels import njit
 from prolepsis.liquid.kernel import Counts, Indices, Singles
 from prolepsis.things import FloatArray
 

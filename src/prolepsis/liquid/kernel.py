@@ -13,8 +13,8 @@ from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
+from prolepsis.kernels import njit
 from prolepsis.things import FloatArray
 
 Singles = npt.NDArray[np.float32]

@@ -9,8 +9,8 @@ opposite, so momentum is kept exactly.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
+from prolepsis.kernels import njit
 from prolepsis.liquid.kernel import Counts, Indices, Singles
 from prolepsis.liquid.walls import REST_DISTANCE, Contacts
 from prolepsis.liquid.yielding import along, give_way, softness

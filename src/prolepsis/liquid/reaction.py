@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 
-from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
-
+from prolepsis.kernels import njit
 from prolepsis.liquid.walls import Contacts, read_table
 from prolepsis.things import FloatArray
 

@@ -9,8 +9,8 @@ Source: Weiler et al., Computer Graphics Forum 37(8):135 (2018), for the pair fo
 from __future__ import annotations
 
 import numpy as np
-from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
+from prolepsis.kernels import njit
 from prolepsis.liquid.kernel import Counts, Indices, Singles
 from prolepsis.liquid.walls import Contacts, read_table
 from prolepsis.things import FloatArray

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
 from prolepsis.fields.faces import MOST_FACES, Solids, faces_of
+from prolepsis.kernels import njit
 from prolepsis.liquid.kernel import SUPPORT, TABLE_SIZE
 from prolepsis.things import FloatArray, IntArray
 

@@ -7,8 +7,8 @@ changes its velocity by what the push differs from that one: nothing when both a
 from __future__ import annotations
 
 import numpy as np
-from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
+from prolepsis.kernels import njit
 from prolepsis.things import FloatArray
 
 

@@ -12,12 +12,12 @@ from dataclasses import dataclass, field
 from typing import Any, cast
 
 import numpy as np
-from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 from scipy.ndimage import binary_dilation  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
 from prolepsis.fields.cavity import BLOCKED, LEAST_DEPTH
 from prolepsis.fields.faces import Solids
 from prolepsis.fields.signed_distance import Field
+from prolepsis.kernels import njit
 from prolepsis.things import BoolArray, FloatArray, IntArray
 
 NODE_COUNT = 80_000

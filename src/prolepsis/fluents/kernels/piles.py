@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
 from prolepsis.fluents.kernels.places import ON, Bits, Labels, Positions
+from prolepsis.kernels import njit
 from prolepsis.things import BoolArray, FloatArray, IntArray
 
 

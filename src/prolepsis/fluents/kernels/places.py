@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
 from prolepsis.fields.faces import MOST_FACES, Solids, faces_of
+from prolepsis.kernels import njit
 from prolepsis.things import BoolArray, FloatArray, IntArray
 
 Positions = npt.NDArray[np.float32]
