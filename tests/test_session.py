@@ -208,6 +208,22 @@ def test_all_threads_are_answered_when_the_process_is_killed_between(session: Se
     assert answers == [[{"N": 200000, "X": "egg1"}]] * 9
 
 
+def test_no_question_makes_prolog_load_a_library(session: Session) -> None:
+    egg = timeline()
+    session.load(egg)
+    process = session._process  # pyright: ignore[reportPrivateUsage]
+    assert process is not None
+
+    def loaded() -> str:
+        return process.call("findall(F, source_file(F), Files), atomic_list_concat(Files, '\\n', Reply)", 10.0)
+
+    before = loaded()
+    session.ask(egg, "limit(1, order_by([desc(T)], distinct(X, holds(broken(X), T)))), format(atom(A), '~2f', [1])")
+    with pytest.raises(GoalError):
+        session.ask(egg, "hols(broken(X), _)")
+    assert loaded() == before
+
+
 def test_two_threads_ask_two_runs_at_once(session: Session) -> None:
     wrong: list[object] = []
 
