@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from prolepsis.kernels import njit
-from prolepsis.liquid.kernel import Counts, Indices, Singles
+from prolepsis.liquid.neighbours import Neighbours
 from prolepsis.things import FloatArray
 
 THINNEST = 0.02
@@ -22,10 +22,7 @@ def calm(
     position: FloatArray,
     velocity: FloatArray,
     mass: FloatArray,
-    start: Counts,
-    end: Counts,
-    other: Indices,
-    gradient: Singles,
+    neighbours: Neighbours,
     share: float,
 ) -> None:
     """Change the velocities.
@@ -34,13 +31,11 @@ def calm(
         position: [m], shape (n, 3).
         velocity: [m/s], shape (n, 3).
         mass: [kg], shape (n,).
-        start: First neighbour of each particle, shape (n,).
-        end: The one after its last, shape (n,).
-        other: Neighbours.
-        gradient: Volume times gradient of the kernel for each neighbour [1/m].
+        neighbours: The neighbours of each.
         share: Share of the jitter that is exchanged [1].
     """
     n = len(velocity)
+    start, end, other, gradient, _ = neighbours
     flow = np.zeros((n, 9))
     known = np.zeros(n, dtype=np.bool_)
     for i in range(n):

@@ -89,6 +89,8 @@ class WallTables:
     """The wall's share of a kernel sum [1]."""
     share_slope: FloatArray
     """Its derivative by the distance [1 / spacing], negative."""
+    air: FloatArray
+    """The share over the root of what its steepness lacks to the greatest, as a part of that, shape (TABLE_SIZE,)."""
     drag: FloatArray
     """Drag force over viscosity, spacing and slip speed [1] with which a flow of constant shear is undisturbed."""
     pull: FloatArray
@@ -117,7 +119,9 @@ def wall_tables() -> WallTables:
         pull[n] = (attractions[beyond] * np.pi * rb**2 * (1 - (y / rb) ** 2)).sum() * dr
         drag[n] = _drag(y, r, dr, slopes)
     energy = float((attractions * r**4).sum() * dr) * np.pi / 8
-    return WallTables(share=share, share_slope=share_slope, drag=drag, pull=pull, surface_energy=energy)
+    lacking = np.sqrt(1.0 - share_slope / share_slope[0])
+    air = np.interp(np.linspace(0.0, 1.0, TABLE_SIZE), lacking, share)
+    return WallTables(share=share, share_slope=share_slope, air=air, drag=drag, pull=pull, surface_energy=energy)
 
 
 def _drag(y: float, r: FloatArray, dr: float, slopes: FloatArray) -> float:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from prolepsis.kernels import njit
@@ -12,6 +14,32 @@ RADIX_BITS = 11
 """Bits that one pass of the sort looks at."""
 FINE = 32
 """Parts of a cell that are told apart along x when sorting."""
+
+
+class Neighbours(NamedTuple):
+    """The neighbours of n particles, one particle's after the other's."""
+
+    start: Counts
+    """First neighbour of each particle, shape (n,)."""
+    end: Counts
+    """The one after its last, shape (n,)."""
+    other: Indices
+    """The neighbours, shape (room,)."""
+    gradient: Singles
+    """Volume times gradient of the kernel for each neighbour [1/m], shape (room, 3)."""
+    drag: Singles
+    """What viscosity times ``(v . gradient) gradient`` is multiplied with for a force [m^3], shape (room,)."""
+
+
+def no_neighbours(n: int, room: int) -> Neighbours:
+    """Return room for so many neighbours of n particles in all."""
+    return Neighbours(
+        start=np.zeros(n, dtype=np.uint64),
+        end=np.zeros(n, dtype=np.uint64),
+        other=np.zeros(room, dtype=np.uint32),
+        gradient=np.zeros((room, 3), dtype=np.float32),
+        drag=np.zeros(room, dtype=np.float32),
+    )
 
 
 @njit(cache=True)
@@ -77,12 +105,7 @@ def find_neighbours(
     spacing: float,
     side: FloatArray,
     table: Singles,
-    room: int,
-    start: Counts,
-    end: Counts,
-    other: Indices,
-    gradient: Singles,
-    drag: Singles,
+    neighbours: Neighbours,
     density: FloatArray,
     steepness: FloatArray,
     strength: FloatArray,
@@ -98,18 +121,15 @@ def find_neighbours(
         side: Normal of the nearest wall and distance to it in spacings, shape (n, 4): neighbours behind a wall do
             not count.
         table: ``pair_table()``.
-        room: Greatest number of neighbours of one particle.
-        start: First neighbour of each particle, shape (n,).
-        end: The one after its last, shape (n,).
-        other: The neighbours, shape (n room,).
-        gradient: Volume times gradient of the kernel [1/m], shape (n room, 3).
-        drag: What viscosity times ``(v . gradient) gradient`` is multiplied with for a force [m^3], shape (n room,).
+        neighbours: Written here; those of the first n particles.
         density: Kernel sum over the liquid [1], shape (n,).
         steepness: Its gradient [1/m], shape (n, 3).
         strength: Attraction between neighbours [N], shape (n,).
-        force: Attraction is added here [N], shape (n, 3).
+        force: Attraction, written here [N], shape (n, 3).
     """
     n = len(position)
+    start, end, other, gradient, drag = neighbours
+    room = len(other)
     metre = np.float32(1.0 / spacing)
     # In spacings, and relative to a corner, single precision suffices and is twice as fast.
     xs, ys, zs = np.empty(n, dtype=np.float32), np.empty(n, dtype=np.float32), np.empty(n, dtype=np.float32)
@@ -118,23 +138,17 @@ def find_neighbours(
         xs[i] = (position[i, 0] - cx) / spacing
         ys[i] = (position[i, 1] - cy) / spacing
         zs[i] = (position[i, 2] - cz) / spacing
-        start[i] = i * room
-        end[i] = i * room
-        density[i] = weight(0.0)
-        steepness[i] = 0.0
-    # Each pair is met once: further along the own row, and in the four rows that come after it.
-    offsets = np.array([0, 1, layer - 1, layer, layer + 1])
-    first, last = np.zeros(5, dtype=np.int64), np.zeros(5, dtype=np.int64)
+    offsets = np.array([-layer - 1, -layer, 1 - layer, -1, 0, 1, layer - 1, layer, layer + 1])
+    first, last = np.zeros(9, dtype=np.int64), np.zeros(9, dtype=np.int64)
+    near, squares = np.empty(n, dtype=np.uint32), np.empty(n, dtype=np.float32)
     square, reach = np.float32(SUPPORT * SUPPORT), np.float32(SUPPORT)
     fine = np.float32((PAIR_TABLE_SIZE - 1) / (SUPPORT * SUPPORT))
+    p = np.uint64(0)
     for i in range(n):
         x, y, z = xs[i], ys[i], zs[i]
-        walled = side[i, 3] < SUPPORT
-        p = end[i]
-        full = start[i] + np.uint64(room)
-        total, sx, sy, sz = np.float32(0.0), np.float32(0.0), np.float32(0.0), np.float32(0.0)
-        fx, fy, fz, own = 0.0, 0.0, 0.0, 0.5 * strength[i]
-        for c in range(5):
+        # First who is near, without a branch that half the candidates take; then what they are to this one.
+        count = 0
+        for c in range(9):
             row = rows[i] + offsets[c]
             k = first[c]
             while k < n and (rows[k] < row or (rows[k] == row and xs[k] < x - reach)):
@@ -144,54 +158,49 @@ def find_neighbours(
             while k < n and (rows[k] < row or (rows[k] == row and xs[k] < x + reach)):
                 k += 1
             last[c] = k
-            for j in range(np.uint32(max(first[c], i + 1)), np.uint32(k)):
+            for j in range(np.uint32(first[c]), np.uint32(k)):
                 dx, dy, dz = x - xs[j], y - ys[j], z - zs[j]
                 r2 = dx * dx + dy * dy + dz * dz
-                if r2 >= square:
+                near[count], squares[count] = j, r2
+                count += (r2 < square) & (j != i)
+        start[i] = p
+        if p + np.uint64(count) > np.uint64(room):
+            return False
+        walled = side[i, 3] < SUPPORT
+        total, sx, sy, sz = np.float32(weight(0.0)), np.float32(0.0), np.float32(0.0), np.float32(0.0)
+        fx, fy, fz, own = 0.0, 0.0, 0.0, 0.5 * strength[i]
+        for m in range(np.uint32(count)):
+            j = near[m]
+            dx, dy, dz = x - xs[j], y - ys[j], z - zs[j]
+            if walled and side[j, 3] < SUPPORT:
+                facing = side[i, 0] * side[j, 0] + side[i, 1] * side[j, 1] + side[i, 2] * side[j, 2]
+                # Back to back, each in front of its own side of a wall that is thinner than the support.
+                if (
+                    facing < -0.5
+                    and dx * (side[i, 0] - side[j, 0]) + dy * (side[i, 1] - side[j, 1]) + dz * (side[i, 2] - side[j, 2])
+                    > 0.0
+                ):
                     continue
-                if walled and side[j, 3] < SUPPORT:
-                    facing = side[i, 0] * side[j, 0] + side[i, 1] * side[j, 1] + side[i, 2] * side[j, 2]
-                    # Back to back, each in front of its own side of a wall that is thinner than the support.
-                    if facing < -0.5 and dx * side[i, 0] + dy * side[i, 1] + dz * side[i, 2] > 0.0:
-                        continue
-                q = end[j]
-                if p >= full or q - start[j] >= np.uint64(room):
-                    return False
-                place = r2 * fine
-                t = min(np.uint32(place), np.uint32(PAIR_TABLE_SIZE - 2))
-                part = place - np.float32(t)
-                entry, following = table[t], table[t + np.uint32(1)]
-                w = entry[0] + part * (following[0] - entry[0])
-                total += w
-                density[j] += w
-                w = (entry[1] + part * (following[1] - entry[1])) * metre
-                gx, gy, gz = w * dx, w * dy, w * dz
-                other[p], other[q] = j, i
-                gradient[p, 0], gradient[p, 1], gradient[p, 2] = gx, gy, gz
-                gradient[q, 0], gradient[q, 1], gradient[q, 2] = -gx, -gy, -gz
-                sx += gx
-                sy += gy
-                sz += gz
-                steepness[j, 0] -= gx
-                steepness[j, 1] -= gy
-                steepness[j, 2] -= gz
-                w = entry[2] + part * (following[2] - entry[2])
-                drag[p], drag[q] = w, w
-                pull = (own + 0.5 * strength[j]) * (entry[3] + part * (following[3] - entry[3]))
-                fx -= pull * dx
-                fy -= pull * dy
-                fz -= pull * dz
-                force[j, 0] += pull * dx
-                force[j, 1] += pull * dy
-                force[j, 2] += pull * dz
-                p += np.uint64(1)
-                end[j] = q + np.uint64(1)
+            place = squares[m] * fine
+            t = min(np.uint32(place), np.uint32(PAIR_TABLE_SIZE - 2))
+            part = place - np.float32(t)
+            entry, following = table[t], table[t + np.uint32(1)]
+            total += entry[0] + part * (following[0] - entry[0])
+            w = (entry[1] + part * (following[1] - entry[1])) * metre
+            gx, gy, gz = w * dx, w * dy, w * dz
+            other[p] = j
+            gradient[p, 0], gradient[p, 1], gradient[p, 2] = gx, gy, gz
+            sx += gx
+            sy += gy
+            sz += gz
+            drag[p] = entry[2] + part * (following[2] - entry[2])
+            pull = (own + 0.5 * strength[j]) * (entry[3] + part * (following[3] - entry[3]))
+            fx -= pull * dx
+            fy -= pull * dy
+            fz -= pull * dz
+            p += np.uint64(1)
         end[i] = p
-        density[i] += total
-        steepness[i, 0] += sx
-        steepness[i, 1] += sy
-        steepness[i, 2] += sz
-        force[i, 0] += fx
-        force[i, 1] += fy
-        force[i, 2] += fz
+        density[i] = total
+        steepness[i, 0], steepness[i, 1], steepness[i, 2] = sx, sy, sz
+        force[i, 0], force[i, 1], force[i, 2] = fx, fy, fz
     return True

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from prolepsis.kernels import njit
-from prolepsis.liquid.kernel import Counts, Indices, Singles
+from prolepsis.liquid.neighbours import Neighbours
 from prolepsis.liquid.walls import REST_DISTANCE, Contacts
 from prolepsis.liquid.yielding import along, give_way, softness
 from prolepsis.things import FloatArray
@@ -28,10 +28,7 @@ GREATEST_CORRECTION = 0.02
 def solve_pressure(
     velocity: FloatArray,
     inverse_mass: FloatArray,
-    start: Counts,
-    end: Counts,
-    other: Indices,
-    gradient: Singles,
+    neighbours: Neighbours,
     steepness: FloatArray,
     density: FloatArray,
     contacts: Contacts,
@@ -50,10 +47,7 @@ def solve_pressure(
     Args:
         velocity: [m/s], shape (n, 3).
         inverse_mass: [1/kg], shape (n,).
-        start: First neighbour of each particle, shape (n,).
-        end: The one after its last, shape (n,).
-        other: Neighbours.
-        gradient: Volume times gradient of the kernel for each neighbour [1/m].
+        neighbours: The neighbours of each.
         steepness: Gradient of each particle's kernel sum, walls included [1/m], shape (n, 3).
         density: Kernel sum with walls and air [1], shape (n,).
         contacts: What each particle sees of the walls.
@@ -68,6 +62,7 @@ def solve_pressure(
         most_sweeps: At most so many.
     """
     n = len(velocity)
+    start, end, other, gradient, _ = neighbours
     least = REST_DISTANCE * spacing
     # Own part of each row: liquid alone, for what the neighbours' velocities are compared with.
     own, wanted, inverse = np.empty((n, 3)), np.empty(n), np.empty(n)
@@ -120,7 +115,7 @@ def solve_pressure(
             # Rows that are good enough need not disturb their neighbours.
             if abs(residual) > negligible and change != 0.0:
                 impulse[i] += change
-                _apply(i, change, velocity, inverse_mass, start, end, other, gradient, steepness)
+                _apply(i, change, velocity, inverse_mass, neighbours, steepness)
                 for f in range(seen):
                     body = contacts.body[i, f]
                     if mobility[body, 0] > 0.0:
@@ -172,16 +167,13 @@ def apply_impulses(
     impulse: FloatArray,
     velocity: FloatArray,
     inverse_mass: FloatArray,
-    start: Counts,
-    end: Counts,
-    other: Indices,
-    gradient: Singles,
+    neighbours: Neighbours,
     steepness: FloatArray,
 ) -> None:
     """Add to the velocities what the pressure impulses do; arguments as in ``solve_pressure``."""
     for i in range(len(velocity)):
         if impulse[i] > 0.0:
-            _apply(i, impulse[i], velocity, inverse_mass, start, end, other, gradient, steepness)
+            _apply(i, impulse[i], velocity, inverse_mass, neighbours, steepness)
 
 
 @njit(cache=True, fastmath=True, inline="always")
@@ -190,12 +182,10 @@ def _apply(
     kappa: float,
     velocity: FloatArray,
     inverse_mass: FloatArray,
-    start: Counts,
-    end: Counts,
-    other: Indices,
-    gradient: Singles,
+    neighbours: Neighbours,
     steepness: FloatArray,
 ) -> None:
+    start, end, other, gradient, _ = neighbours
     own = kappa * inverse_mass[i]
     velocity[i, 0] -= own * steepness[i, 0]
     velocity[i, 1] -= own * steepness[i, 1]

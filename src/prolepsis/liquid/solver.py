@@ -10,8 +10,8 @@ import numpy as np
 
 from prolepsis.fields.faces import Solids
 from prolepsis.liquid.calming import calm
-from prolepsis.liquid.kernel import SUPPORT, Indices, Singles, pair_table, wall_tables
-from prolepsis.liquid.neighbours import find_neighbours, row_order
+from prolepsis.liquid.kernel import SUPPORT, pair_table, wall_tables
+from prolepsis.liquid.neighbours import find_neighbours, no_neighbours, row_order
 from prolepsis.liquid.particles import ParticleState
 from prolepsis.liquid.pressure import apply_impulses, solve_pressure
 from prolepsis.liquid.reaction import add_adhesion, add_drag, add_pressure, pin_edges
@@ -29,8 +29,8 @@ RIPPLE = 0.4
 """Share of the period of the shortest ripple that a step may take [1]."""
 LONGEST, SHORTEST = 4.0e-3, 1.0e-4
 """Longest and shortest step [s]."""
-MOST_NEIGHBOURS = 64
-"""Room for neighbours per particle, doubled when it does not suffice."""
+ROOM = 40
+"""Room for neighbours per particle in the mean, doubled when it does not suffice."""
 PRESSURE_TOLERANCE = 0.25
 """Mean rate of compression that a step may leave [1/s]."""
 PRESSURE_SWEEPS = (2, 40)
@@ -74,7 +74,7 @@ class Liquid:
         self._last = 1.0e-3
         # Force and torque on each body in the last step, and the part of it that was drag.
         self._pushed, self._dragged = np.zeros((0, 6)), np.zeros((0, 6))
-        self._grow(MOST_NEIGHBOURS)
+        self._grow(ROOM)
         self._contacts = empty_contacts(count)
         # The shortest ripple of the lightest liquid must be seen (Brackbill et al. 1992).
         lightness = (particles.tension / particles.mass).max(initial=1e-12)
@@ -82,10 +82,7 @@ class Liquid:
 
     def _grow(self, room: int) -> None:
         self._room = room
-        size = room * len(self.particles.mass)
-        self._other: Indices = np.zeros(size, dtype=np.uint32)
-        self._gradient: Singles = np.zeros((size, 3), dtype=np.float32)
-        self._drag: Singles = np.zeros(size, dtype=np.float32)
+        self._neighbours = no_neighbours(len(self.particles.mass), room * len(self.particles.mass))
 
     def forget_pushes(self) -> None:
         """Forget what the bodies were given: they are others now."""
@@ -127,38 +124,35 @@ class Liquid:
         x, v, mass = p.position[ids], p.velocity[ids], p.mass[ids]
         strength = p.tension[ids] * spacing / tables.surface_energy
         wetting, viscosity = p.wetting[ids], p.viscosity[ids]
-        start, end = np.zeros(n, dtype=np.uint64), np.zeros(n, dtype=np.uint64)
-        density, steepness, force = np.zeros(n), np.zeros((n, 3)), np.zeros((n, 3))
+        density, steepness, force = np.empty(n), np.empty((n, 3)), np.empty((n, 3))
         side = np.zeros((n, 4))
         contacts = self._contacts
         find_walls(x, spacing, solids, bodies, tables.share, tables.share_slope, contacts, side)
         clock.lap("walls")
         while not find_neighbours(
-            x, rows, layer, spacing, side, pair_table(), self._room, start, end, self._other, self._gradient,
-            self._drag, density, steepness, strength, force,
-        ):  # fmt: skip
+            x, rows, layer, spacing, side, pair_table(), self._neighbours, density, steepness, strength, force
+        ):
             self._grow(2 * self._room)
-            force[:] = 0.0
         clock.lap("neighbours")
+        near, inverse_mass = self._neighbours, 1.0 / mass
         alone = density.copy()
         add_adhesion(contacts, strength, wetting, tables.pull, spacing, force)
-        complete_density(contacts, density, steepness, tables.share, tables.share_slope, spacing)
+        complete_density(contacts, density, steepness, tables.air, -tables.share_slope[0], spacing)
         v += dt * (self._gravity + force / mass[:, None])
-        calm(x, v, mass, start, end, self._other, self._gradient, min(CALMING_SPEED * dt / spacing, 0.5))
+        calm(x, v, mass, near, min(CALMING_SPEED * dt / spacing, 0.5))
         clock.lap("attraction")
         # What a much shorter step had to correct says little of this one.
         longer = min(dt / self._last, GREATEST_GROWTH)
         impulse = self._impulse[ids] * longer
         # Before viscosity, or what the last pressures do wrong at single particles would never be damped.
-        apply_impulses(impulse, v, 1.0 / mass, start, end, self._other, self._gradient, steepness)
+        apply_impulses(impulse, v, inverse_mass, near, steepness)
         guess = self._viscous[ids] * longer
         slip, push = np.zeros((n, SEEN)), np.zeros((n, SEEN))
         if len(self._pushed) != len(reaction):
             self._pushed, self._dragged = np.zeros_like(reaction), np.zeros_like(reaction)
         mobility, yielded = bodies.mobility, np.zeros_like(reaction)
         self.effort.iterations += solve_viscosity(
-            v, guess, mass, viscosity, start, end, self._other, self._gradient, self._drag, contacts, tables.drag,
-            spacing, dt, VISCOUS_TOLERANCE, VISCOUS_ITERATIONS, slip, inertia_of(mobility),
+            v, guess, mass, viscosity, near, contacts, tables.drag, spacing, dt, VISCOUS_TOLERANCE, VISCOUS_ITERATIONS, slip, inertia_of(mobility),
             self._dragged * dt, yielded,
         )  # fmt: skip
         add_drag(contacts, v, slip, yielded, x, reaction)
@@ -170,7 +164,7 @@ class Liquid:
             add_pressure(contacts, impulse, push, strength, wetting, tables.pull, spacing, dt, x, guessed)
             yielded += response(mobility, about(bodies.centre, guessed) - dt * (self._pushed - self._dragged))
         sweeps, error = solve_pressure(
-            v, 1.0 / mass, start, end, self._other, self._gradient, steepness, density, contacts, impulse, push,
+            v, inverse_mass, near, steepness, density, contacts, impulse, push,
             mobility, yielded, spacing, dt, PRESSURE_TOLERANCE * dt, *PRESSURE_SWEEPS,
         )  # fmt: skip
         self._impulse[ids] = impulse

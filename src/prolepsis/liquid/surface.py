@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from prolepsis.kernels import njit
+from prolepsis.liquid.kernel import TABLE_SIZE
 from prolepsis.liquid.walls import Contacts
 from prolepsis.things import FloatArray
 
@@ -14,8 +15,8 @@ def complete_density(
     contacts: Contacts,
     density: FloatArray,
     steepness: FloatArray,
-    share_table: FloatArray,
-    slope_table: FloatArray,
+    air_table: FloatArray,
+    steepest: float,
     spacing: float,
 ) -> None:
     """Add the walls' share and the air's to the kernel sums, and the walls' to their gradients.
@@ -28,8 +29,8 @@ def complete_density(
         contacts: What each particle sees of the walls.
         density: Kernel sum over the liquid, changed [1], shape (n,).
         steepness: Its gradient, changed [1/m], shape (n, 3).
-        share_table: A wall's share of the kernel sum over the distance.
-        slope_table: Its derivative.
+        air_table: ``air`` of the tables.
+        steepest: Greatest steepness of a wall's share [1 / spacing].
         spacing: [m].
     """
     for i in range(len(density)):
@@ -38,20 +39,12 @@ def complete_density(
                 steepness[i, c] += contacts.slope[i, f] * contacts.normal[i, f, c]
         s = steepness[i]
         gradient = math.sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) * spacing
-        density[i] += contacts.share[i] + _air_share(gradient, share_table, slope_table)
+        density[i] += contacts.share[i] + _air_share(gradient, steepest, air_table)
 
 
-@njit(cache=True)
-def _air_share(gradient: float, share_table: FloatArray, slope_table: FloatArray) -> float:
+@njit(cache=True, inline="always")
+def _air_share(gradient: float, steepest: float, table: FloatArray) -> float:
     """Return a wall's share where its derivative is ``-gradient`` [1 / spacing]."""
-    if gradient >= -slope_table[0]:
-        return share_table[0]
-    low, high = 0, len(slope_table) - 1
-    while high - low > 1:
-        middle = (low + high) // 2
-        if -slope_table[middle] > gradient:
-            low = middle
-        else:
-            high = middle
-    part = (-slope_table[low] - gradient) / max(slope_table[high] - slope_table[low], 1e-12)
-    return share_table[low] + part * (share_table[high] - share_table[low])
+    place = math.sqrt(max(1.0 - gradient / steepest, 0.0)) * (TABLE_SIZE - 1)
+    k = min(int(place), TABLE_SIZE - 2)
+    return table[k] + (place - k) * (table[k + 1] - table[k])

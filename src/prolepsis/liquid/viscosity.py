@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from prolepsis.kernels import njit
-from prolepsis.liquid.kernel import Counts, Indices, Singles
+from prolepsis.liquid.neighbours import Neighbours
 from prolepsis.liquid.walls import Contacts, read_table
 from prolepsis.things import FloatArray
 
@@ -25,11 +25,7 @@ def solve_viscosity(
     guess: FloatArray,
     mass: FloatArray,
     viscosity: FloatArray,
-    start: Counts,
-    end: Counts,
-    other: Indices,
-    gradient: Singles,
-    drag: Singles,
+    neighbours: Neighbours,
     contacts: Contacts,
     drag_table: FloatArray,
     spacing: float,
@@ -48,11 +44,7 @@ def solve_viscosity(
         guess: First guess of the change [m/s], shape (n, 3).
         mass: [kg], shape (n,).
         viscosity: [Pa s], shape (n,).
-        start: First neighbour of each particle, shape (n,).
-        end: The one after its last, shape (n,).
-        other: Neighbours.
-        gradient: Volume times gradient of the kernel for each neighbour [1/m].
-        drag: Factor of the pair force for each neighbour.
+        neighbours: The neighbours of each; their drag becomes that of this step.
         contacts: What each particle sees of the walls.
         drag_table: Drag of a wall over the distance.
         spacing: [m].
@@ -67,59 +59,62 @@ def solve_viscosity(
         yielded: Change of each body's velocity and spin by drag, written here, shape (B, 6).
     """
     n = len(velocity)
+    start, end, other, gradient, drag = neighbours
     volume = spacing**3
-    right = np.zeros((n, 3))
-    diagonal = np.zeros((n, 3))
+    found = velocity + guess
+    residual, diagonal = np.empty((n, 3)), np.empty((n, 3))
     count = len(inertia)
-    body_right, body_diagonal = -last_drag, np.ones((count, 6))
+    body_residual, body_diagonal = -last_drag, np.ones((count, 6))
     for b in range(count):
         for c in range(3):
             body_diagonal[b, c], body_diagonal[b, c + 3] = inertia[b, 0], inertia[b, 1 + 4 * c]
-    # Factor of (v . g) g of each pair, with the time step in it.
-    factor: Singles = np.zeros(len(other), dtype=np.float32)
+    stiffest, walled, scale = 0.0, False, 1e-30
     for i in range(n):
-        for c in range(3):
-            right[i, c] = mass[i] * velocity[i, c]
-            diagonal[i, c] = mass[i]
+        x, y, z = found[i, 0], found[i, 1], found[i, 2]
+        dx = dy = dz = mass[i]
+        rx, ry, rz = -mass[i] * guess[i, 0], -mass[i] * guess[i, 1], -mass[i] * guess[i, 2]
         for p in range(start[i], end[i]):
             j = other[p]
             both = viscosity[i] + viscosity[j]
             mean = 2.0 * viscosity[i] * viscosity[j] / both if both > 0.0 else 0.0
-            factor[p] = mean * drag[p] * volume * dt
-            for c in range(3):
-                diagonal[i, c] += factor[p] * gradient[p, c] * gradient[p, c]
+            factor = mean * drag[p] * volume * dt
+            drag[p] = factor
+            gx, gy, gz = gradient[p, 0], gradient[p, 1], gradient[p, 2]
+            along = factor * (gx * (x - found[j, 0]) + gy * (y - found[j, 1]) + gz * (z - found[j, 2]))
+            rx -= along * gx
+            ry -= along * gy
+            rz -= along * gz
+            dx += factor * gx * gx
+            dy += factor * gy * gy
+            dz += factor * gz * gz
+        sx, sy, sz = mass[i] * velocity[i, 0], mass[i] * velocity[i, 1], mass[i] * velocity[i, 2]
         for f in range(contacts.seen[i]):
             q = contacts.distance[i, f] / spacing
             k = contacts.weight[i, f] * read_table(drag_table, q) * viscosity[i] * spacing * dt
             slip[i, f] = k
             wall, b = contacts.velocity[i, f], contacts.body[i, f]
-            for c in range(3):
-                right[i, c] += k * wall[c]
-                diagonal[i, c] += k
+            sx, sy, sz = sx + k * wall[0], sy + k * wall[1], sz + k * wall[2]
+            dx, dy, dz = dx + k, dy + k, dz + k
+            ux, uy, uz = k * (x - wall[0]), k * (y - wall[1]), k * (z - wall[2])
+            rx, ry, rz = rx - ux, ry - uy, rz - uz
             if inertia[b, 0] > 0.0:
                 arm = contacts.arm[i, f]
-                _add_wrench(body_right[b], arm, -k * wall[0], -k * wall[1], -k * wall[2])
+                _add_wrench(body_residual[b], arm, ux, uy, uz)
                 square = arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2]
                 for c in range(3):
                     body_diagonal[b, c] += k
                     body_diagonal[b, c + 3] += k * (square - arm[c] * arm[c])
-    stiffest, walled = 0.0, False
-    for i in range(n):
-        walled = walled or contacts.seen[i] > 0
-        stiffest = max(stiffest, diagonal[i, 0] / mass[i])
-    gentle = stiffest < 1.0 + GENTLE
-    found = velocity + guess
-    product = np.zeros((n, 3))
+            walled = True
+        residual[i, 0], residual[i, 1], residual[i, 2] = rx, ry, rz
+        diagonal[i, 0], diagonal[i, 1], diagonal[i, 2] = dx, dy, dz
+        scale += sx * sx / dx + sy * sy / dy + sz * sz / dz
+        stiffest = max(stiffest, dx / mass[i])
     yielded[:] = 0.0
-    body_product = np.zeros((count, 6))
-    _multiply(found, yielded, mass, inertia, start, end, other, gradient, factor, contacts, slip, product, body_product)
-    residual = right - product
-    body_residual = body_right - body_product
     for b in range(count):
         if inertia[b, 0] == 0.0:
             body_residual[b] = 0.0
             body_diagonal[b] = 1.0
-    if gentle:
+    if stiffest < 1.0 + GENTLE:
         # One Jacobi step is exact enough where viscosity changes the velocities by a few percent.
         for i in range(n):
             for c in range(3):
@@ -131,33 +126,18 @@ def solve_viscosity(
         return 1
     conditioned, body_conditioned = residual / diagonal, body_residual / body_diagonal
     direction, body_direction = conditioned.copy(), body_conditioned.copy()
+    product, body_product = np.empty((n, 3)), np.empty((count, 6))
     size = 0.0
-    scale = 1e-30
     for i in range(n):
         for c in range(3):
             size += residual[i, c] * conditioned[i, c]
-            scale += right[i, c] * right[i, c] / diagonal[i, c]
     for b in range(count):
         for c in range(6):
             size += body_residual[b, c] * body_conditioned[b, c]
     limit = tolerance * tolerance * scale
     iteration = 0
     while iteration < most and size > limit:
-        _multiply(
-            direction,
-            body_direction,
-            mass,
-            inertia,
-            start,
-            end,
-            other,
-            gradient,
-            factor,
-            contacts,
-            slip,
-            product,
-            body_product,
-        )
+        _multiply(direction, body_direction, mass, inertia, neighbours, contacts, slip, product, body_product)
         curvature = 0.0
         for b in range(count):
             for c in range(6):
@@ -219,17 +199,14 @@ def _multiply(
     bodies: FloatArray,
     mass: FloatArray,
     inertia: FloatArray,
-    start: Counts,
-    end: Counts,
-    other: Indices,
-    gradient: Singles,
-    factor: Singles,
+    neighbours: Neighbours,
     contacts: Contacts,
     slip: FloatArray,
     product: FloatArray,
     body_product: FloatArray,
 ) -> None:
     """Multiply velocities of particles and of bodies with masses and drags."""
+    start, end, other, gradient, factor = neighbours
     for b in range(len(bodies)):
         m, v = inertia[b], bodies[b]
         for c in range(3):
