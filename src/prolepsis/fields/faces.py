@@ -40,68 +40,73 @@ class Solids(NamedTuple):
     (position, direction, radius), grids (origin, step, shape, values)."""
 
 
-@njit(cache=True, inline="never")
-def faces_of(solids: Solids, k: int, x: float, y: float, z: float, reach: float, found: FloatArray) -> int:
-    """Write the faces of solid ``k`` that a point sees within ``reach``, nearest first, and return their count.
+@njit(cache=True)
+def faces_of(
+    solids: Solids, k: int, points: FloatArray, count: int, reach: float, found: FloatArray, seen: IntArray
+) -> None:
+    """Write the faces of solid ``k`` that points see within ``reach``, nearest first, and how many.
 
     Args:
         solids: The solids.
         k: Which of them.
-        x: Position of the point in the frame of the body [m].
-        y: As ``x``.
-        z: As ``x``.
+        points: In the frame of the body [m], shape (m, 3).
+        count: How many of the points are meant, from the first on: a call costs more than a point.
         reach: Faces further than this [m] need not be found.
-        found: Rows of signed distance and outward normal in the frame of the body, shape (MOST_FACES, 4).
+        found: Signed distance and outward normal in the frame of the body, shape (m, MOST_FACES, 4).
+        seen: Number of faces of each point, shape (m,).
     """
-    f = solids.frame[k]
-    dx, dy, dz = x - f[0], y - f[1], z - f[2]
-    px = f[3] * dx + f[6] * dy + f[9] * dz
-    py = f[4] * dx + f[7] * dy + f[10] * dz
-    pz = f[5] * dx + f[8] * dy + f[11] * dz
-    box = solids.bounds[k]
-    if (
-        px < box[0] - reach
-        or px > box[3] + reach
-        or py < box[1] - reach
-        or py > box[4] + reach
-        or pz < box[2] - reach
-        or pz > box[5] + reach
-    ):
-        return 0
-    kind = solids.kind[k]
-    count = 1
-    if kind == PLANE:
-        found[0, 0], found[0, 1], found[0, 2], found[0, 3] = pz, 0.0, 0.0, 1.0
-    elif kind == SPHERE:
-        _round(px, py, pz, solids.size[k, 0], found)
-    elif kind == CAPSULE:
-        half = solids.size[k, 1]
-        _round(px, py, pz - min(max(pz, -half), half), solids.size[k, 0], found)
-    elif kind == ELLIPSOID:
-        _ellipsoid(px, py, pz, solids.size[k], found)
-    elif kind == CYLINDER:
-        _cylinder(px, py, pz, solids.size[k], found)
-    elif kind == BOX:
-        _box(px, py, pz, solids.size[k], found)
-    elif kind == HULL:
-        _hull(px, py, pz, solids.numbers, solids.span[k], found)
-    elif kind == PROFILE:
-        count = _profile(px, py, pz, solids.numbers, solids.span[k], reach, found)
-    else:
-        _grid(px, py, pz, solids.numbers, solids.span[k, 0], found)
-    kept = 0
+    kinds, frame, sizes, bounds, span, numbers = solids
+    kind, size = kinds[k], sizes[k]
+    ox, oy, oz = frame[k, 0], frame[k, 1], frame[k, 2]
+    xx, xy, xz = frame[k, 3], frame[k, 4], frame[k, 5]
+    yx, yy, yz = frame[k, 6], frame[k, 7], frame[k, 8]
+    zx, zy, zz = frame[k, 9], frame[k, 10], frame[k, 11]
+    left, front, low = bounds[k, 0] - reach, bounds[k, 1] - reach, bounds[k, 2] - reach
+    right, back, high = bounds[k, 3] + reach, bounds[k, 4] + reach, bounds[k, 5] + reach
+    first, length, first_hole, holes = span[k, 0], span[k, 1], span[k, 2], span[k, 3]
+    near = np.empty((MOST_FACES, 4))
     for i in range(count):
-        if found[i, 0] < reach:
-            nx, ny, nz = found[i, 1], found[i, 2], found[i, 3]
-            found[kept, 0] = found[i, 0]
-            found[kept, 1] = f[3] * nx + f[4] * ny + f[5] * nz
-            found[kept, 2] = f[6] * nx + f[7] * ny + f[8] * nz
-            found[kept, 3] = f[9] * nx + f[10] * ny + f[11] * nz
-            kept += 1
-    return kept
+        seen[i] = 0
+        dx, dy, dz = points[i, 0] - ox, points[i, 1] - oy, points[i, 2] - oz
+        x = xx * dx + yx * dy + zx * dz
+        y = xy * dx + yy * dy + zy * dz
+        z = xz * dx + yz * dy + zz * dz
+        if x < left or x > right or y < front or y > back or z < low or z > high:
+            continue
+        faces = 1
+        if kind == PLANE:
+            near[0, 0], near[0, 1], near[0, 2], near[0, 3] = z, 0.0, 0.0, 1.0
+        elif kind == SPHERE:
+            _round(x, y, z, size[0], near)
+        elif kind == CAPSULE:
+            _round(x, y, z - min(max(z, -size[1]), size[1]), size[0], near)
+        elif kind == ELLIPSOID:
+            _ellipsoid(x, y, z, size, near)
+        elif kind == CYLINDER:
+            _cylinder(x, y, z, size, near)
+        elif kind == BOX:
+            _box(x, y, z, size, near)
+        elif kind == HULL:
+            _hull(x, y, z, numbers, first, length, near)
+        elif kind == PROFILE:
+            faces = _profile(x, y, z, numbers, first, length, reach, near)
+            if holes > 0:
+                _drill(x, y, z, numbers, first_hole, holes, near, faces)
+        else:
+            _grid(x, y, z, numbers, first, near)
+        kept = 0
+        for face in range(faces):
+            if near[face, 0] < reach:
+                nx, ny, nz = near[face, 1], near[face, 2], near[face, 3]
+                found[i, kept, 0] = near[face, 0]
+                found[i, kept, 1] = xx * nx + xy * ny + xz * nz
+                found[i, kept, 2] = yx * nx + yy * ny + yz * nz
+                found[i, kept, 3] = zx * nx + zy * ny + zz * nz
+                kept += 1
+        seen[i] = kept
 
 
-@njit(cache=True)
+@njit(cache=True, forceinline=True)
 def _round(x: float, y: float, z: float, radius: float, found: FloatArray) -> None:
     length = math.sqrt(x * x + y * y + z * z)
     found[0, 0] = length - radius
@@ -111,7 +116,7 @@ def _round(x: float, y: float, z: float, radius: float, found: FloatArray) -> No
         found[0, 1], found[0, 2], found[0, 3] = 0.0, 0.0, 1.0
 
 
-@njit(cache=True)
+@njit(cache=True, forceinline=True)
 def _ellipsoid(x: float, y: float, z: float, size: FloatArray, found: FloatArray) -> None:
     # A close estimate: the implicit function over the length of its gradient, exact on the surface and for a sphere.
     sx, sy, sz = x / size[0], y / size[1], z / size[2]
@@ -126,7 +131,7 @@ def _ellipsoid(x: float, y: float, z: float, size: FloatArray, found: FloatArray
     found[0, 1], found[0, 2], found[0, 3] = gx / slope, gy / slope, gz / slope
 
 
-@njit(cache=True)
+@njit(cache=True, forceinline=True)
 def _cylinder(x: float, y: float, z: float, size: FloatArray, found: FloatArray) -> None:
     radial = math.sqrt(x * x + y * y)
     cx, cy = (x / radial, y / radial) if radial > 1e-12 else (1.0, 0.0)
@@ -142,7 +147,7 @@ def _cylinder(x: float, y: float, z: float, size: FloatArray, found: FloatArray)
         found[0, 0], found[0, 1], found[0, 2], found[0, 3] = top, 0.0, 0.0, up
 
 
-@njit(cache=True)
+@njit(cache=True, forceinline=True)
 def _box(x: float, y: float, z: float, size: FloatArray, found: FloatArray) -> None:
     qx, qy, qz = abs(x) - size[0], abs(y) - size[1], abs(z) - size[2]
     ux, uy, uz = (1.0 if x >= 0.0 else -1.0), (1.0 if y >= 0.0 else -1.0), (1.0 if z >= 0.0 else -1.0)
@@ -161,26 +166,28 @@ def _box(x: float, y: float, z: float, size: FloatArray, found: FloatArray) -> N
     found[0, 1], found[0, 2], found[0, 3] = ux * ox / distance, uy * oy / distance, uz * oz / distance
 
 
-@njit(cache=True)
-def _hull(x: float, y: float, z: float, numbers: FloatArray, span: IntArray, found: FloatArray) -> None:
+@njit(cache=True, forceinline=True)
+def _hull(x: float, y: float, z: float, numbers: FloatArray, first: int, size: int, found: FloatArray) -> None:
     # Inside and in front of a side it is exact, at edges too near by a little.
     found[0, 0] = -np.inf
-    for p in range(span[0], span[0] + span[1], 4):
+    for p in range(first, first + size, 4):
         distance = numbers[p] * x + numbers[p + 1] * y + numbers[p + 2] * z - numbers[p + 3]
         if distance > found[0, 0]:
             found[0, 0] = distance
             found[0, 1], found[0, 2], found[0, 3] = numbers[p], numbers[p + 1], numbers[p + 2]
 
 
-@njit(cache=True)
-def _profile(x: float, y: float, z: float, numbers: FloatArray, span: IntArray, reach: float, found: FloatArray) -> int:
+@njit(cache=True, forceinline=True)
+def _profile(
+    x: float, y: float, z: float, numbers: FloatArray, first: int, size: int, reach: float, found: FloatArray
+) -> int:
     """Return the sides of a turned outline that the point is in front of, or the nearest if there is none."""
     r = math.sqrt(x * x + y * y)
     cx, cy = (x / r, y / r) if r > 1e-12 else (1.0, 0.0)
     nearest, nearest_r, nearest_z = np.inf, 0.0, 1.0
     inside, corner = False, False
     count = 0
-    for p in range(span[0], span[0] + span[1], 7):
+    for p in range(first, first + size, 7):
         # Where the side begins and ends, its direction, its length.
         ar, az, br, bz = numbers[p], numbers[p + 1], numbers[p + 2], numbers[p + 3]
         er, ez, length = numbers[p + 4], numbers[p + 5], numbers[p + 6]
@@ -222,15 +229,15 @@ def _profile(x: float, y: float, z: float, numbers: FloatArray, span: IntArray, 
                 found[place, c] = found[place - 1, c]
         found[0, 0], found[0, 1], found[0, 2], found[0, 3] = nearest, nearest_r * cx, nearest_r * cy, nearest_z
         count += 1
-    if span[3] == 0:
-        return count
-    return _drilled(x, y, z, numbers, span, found, count)
+    return count
 
 
-@njit(cache=True)
-def _drilled(x: float, y: float, z: float, numbers: FloatArray, span: IntArray, found: FloatArray, count: int) -> int:
-    """Return the faces as they are where a hole is drilled through them."""
-    for h in range(span[2], span[2] + span[3], 7):
+@njit(cache=True, forceinline=True)
+def _drill(
+    x: float, y: float, z: float, numbers: FloatArray, first: int, size: int, found: FloatArray, count: int
+) -> None:
+    """Change the faces where a hole is drilled through them."""
+    for h in range(first, first + size, 7):
         ox, oy, oz = x - numbers[h], y - numbers[h + 1], z - numbers[h + 2]
         ax, ay, az = numbers[h + 3], numbers[h + 4], numbers[h + 5]
         along = ox * ax + oy * ay + oz * az
@@ -256,10 +263,9 @@ def _drilled(x: float, y: float, z: float, numbers: FloatArray, span: IntArray, 
                 found[i, 2] = (ahead * found[i, 2] + room * oy) / distance
                 found[i, 3] = (ahead * found[i, 3] + room * oz) / distance
                 found[i, 0] = distance
-    return count
 
 
-@njit(cache=True)
+@njit(cache=True, forceinline=True)
 def _grid(x: float, y: float, z: float, numbers: FloatArray, start: int, found: FloatArray) -> None:
     step = numbers[start + 3]
     nx, ny, nz = int(numbers[start + 4]), int(numbers[start + 5]), int(numbers[start + 6])

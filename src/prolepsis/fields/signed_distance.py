@@ -38,6 +38,9 @@ PRIMITIVES = {
     "mesh": HULL,
 }
 
+AT_ONCE = 1024
+"""Points whose distances are computed at once."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class Field:
@@ -122,12 +125,15 @@ def _joined(rows: Sequence[_Row]) -> Solids:
 @njit(cache=True)
 def _distances(solids: Solids, points: FloatArray) -> FloatArray:
     result = np.full(len(points), np.inf)
-    found = np.zeros((MOST_FACES, 4))
-    for i in range(len(points)):
+    room = min(len(points), AT_ONCE)
+    found, seen = np.zeros((room, MOST_FACES, 4)), np.zeros(room, dtype=np.int64)
+    for begin in range(0, len(points), AT_ONCE):
+        some = points[begin : begin + AT_ONCE]
         for k in range(len(solids.kind)):
-            count = faces_of(solids, k, points[i, 0], points[i, 1], points[i, 2], np.inf, found)
-            if count > 0:
-                result[i] = min(result[i], found[0, 0])
+            faces_of(solids, k, some, len(some), np.inf, found, seen)
+            for i in range(len(some)):
+                if seen[i] > 0:
+                    result[begin + i] = min(result[begin + i], found[i, 0, 0])
     return result
 
 

@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-from itertools import product
-
 import numpy as np
 
 from prolepsis.engine import mujoco
 from prolepsis.fields.faces import Solids
 from prolepsis.fields.signed_distance import shifted, solids_as_arrays, union_of
-from prolepsis.fields.solids import Solid, bounded, matrix
 from prolepsis.liquid.walls import Bodies
 from prolepsis.state import State
-from prolepsis.things import BoolArray, FloatArray, IntArray, Shape
+from prolepsis.things import BoolArray, FloatArray, IntArray
 
 FREE_FREEDOMS = 6
 """Degrees of freedom of a body that moves freely."""
-
-
 GREATEST_CHANGE = 20.0
 """Acceleration with which a body may be taken to go on [m/s^2]."""
 
@@ -48,7 +43,6 @@ class WallBodies:
         ids: list[int] = []
         first = [0]
         parts: list[Solids] = []
-        balls: list[FloatArray] = []
         for body, carrier in enumerate([int(thing) for thing in state.body_thing]):
             if carrier < 0 or self._is_shard(state, body, int(carrier)):
                 continue
@@ -62,11 +56,9 @@ class WallBodies:
             ids.append(body)
             parts += made
             first.append(first[-1] + sum(len(solids.kind) for solids in made))
-            balls.append(_ball([(things[i].shape, state.offsets[i]) for i in carried]))
         self.solids = union_of(parts)
         self.ids = np.array(ids, dtype=np.int64)
         self._first = np.array(first, dtype=np.int64)
-        self._balls = np.array(balls).reshape(-1, 4)
         self._position, self._rotation = self._poses(state)
         self._last = np.zeros((0, 6))
         self._weigh(state)
@@ -77,13 +69,16 @@ class WallBodies:
         model, data = state.model, state.data
         self._centre = data.xipos[self.ids].copy()
         self._mobility = np.zeros((len(self.ids), 10))
+        self._inertia = np.zeros((len(self.ids), 10))
         held = _held(state)
         for k, body in enumerate(self.ids.tolist()):
             if model.body_dofnum[body] != FREE_FREEDOMS or body in held:
                 continue
             turn = data.ximat[body].reshape(3, 3)
-            self._mobility[k, 0] = 1.0 / model.body_mass[body]
-            self._mobility[k, 1:] = ((turn / model.body_inertia[body]) @ turn.T).ravel()
+            mass, inertia = model.body_mass[body], model.body_inertia[body]
+            self._mobility[k, 0], self._inertia[k, 0] = 1.0 / mass, mass
+            self._mobility[k, 1:] = ((turn / inertia) @ turn.T).ravel()
+            self._inertia[k, 1:] = ((turn * inertia) @ turn.T).ravel()
 
     def _is_shard(self, state: State, body: int, carrier: int) -> bool:
         pieces = "Piece" in state.world.scene.things[carrier].roles
@@ -134,13 +129,13 @@ class WallBodies:
         """Return the bodies at given poses and velocities."""
         return Bodies(
             first=self._first,
-            reach=self._balls,
             rotation=np.ascontiguousarray(rotation),
             position=np.ascontiguousarray(position),
             velocity=np.ascontiguousarray(velocity),
             spin=np.ascontiguousarray(spin),
             centre=self._centre,
             mobility=self._mobility,
+            inertia=self._inertia,
         )
 
     @property
@@ -165,17 +160,3 @@ def _held(state: State) -> set[int]:
         if force > 0.0 and jointed[a] != jointed[b]:
             found.add(b if jointed[a] else a)
     return found
-
-
-def _ball(parts: list[tuple[Shape, FloatArray]]) -> FloatArray:
-    """Return centre and radius of a ball around shapes at their poses in a body, shape (4,)."""
-    if any(geom.type == "plane" for shape, _ in parts for geom in shape.geoms):
-        return np.array([0.0, 0.0, 0.0, 1e6])
-    corners: list[FloatArray] = []
-    for shape, pose in parts:
-        for low, high in map(Solid.bounds, bounded(shape)):
-            box = np.array(list(product(*zip(low, high, strict=True))))
-            corners.append(box @ matrix(pose[3:]).T + pose[:3])
-    points = np.concatenate(corners)
-    centre = (points.min(axis=0) + points.max(axis=0)) / 2
-    return np.array([*centre, np.linalg.norm(points - centre, axis=1).max()])

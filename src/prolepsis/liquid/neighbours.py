@@ -132,45 +132,64 @@ def find_neighbours(
     room = len(other)
     metre = np.float32(1.0 / spacing)
     # In spacings, and relative to a corner, single precision suffices and is twice as fast.
-    xs, ys, zs = np.empty(n, dtype=np.float32), np.empty(n, dtype=np.float32), np.empty(n, dtype=np.float32)
+    xs, ys, zs = np.zeros(n + 1, dtype=np.float32), np.empty(n, dtype=np.float32), np.empty(n, dtype=np.float32)
     cx, cy, cz = position[0, 0], position[0, 1], position[0, 2]
     for i in range(n):
         xs[i] = (position[i, 0] - cx) / spacing
         ys[i] = (position[i, 1] - cy) / spacing
         zs[i] = (position[i, 2] - cz) / spacing
     offsets = np.array([-layer - 1, -layer, 1 - layer, -1, 0, 1, layer - 1, layer, layer + 1])
-    first, last = np.zeros(9, dtype=np.int64), np.zeros(9, dtype=np.int64)
+    # Of the nine rows around: where each begins and ends, and the part of it that is within reach along x.
+    began, ended = np.zeros(9, dtype=np.uint32), np.zeros(9, dtype=np.uint32)
+    first, last, one = np.zeros(9, dtype=np.uint32), np.zeros(9, dtype=np.uint32), np.uint32(1)
     near, squares = np.empty(n, dtype=np.uint32), np.empty(n, dtype=np.float32)
     square, reach = np.float32(SUPPORT * SUPPORT), np.float32(SUPPORT)
     fine = np.float32((PAIR_TABLE_SIZE - 1) / (SUPPORT * SUPPORT))
     p = np.uint64(0)
     for i in range(n):
+        if i == 0 or rows[i] != rows[i - 1]:
+            for c in range(9):
+                row, k = rows[i] + offsets[c], ended[c]
+                while k < n and rows[k] < row:
+                    k += 1
+                began[c], first[c], last[c] = k, k, k
+                while k < n and rows[k] == row:
+                    k += 1
+                ended[c] = k
         x, y, z = xs[i], ys[i], zs[i]
         # First who is near, without a branch that half the candidates take; then what they are to this one.
-        count = 0
+        count, least, most = np.uint32(0), x - reach, x + reach
         for c in range(9):
-            row = rows[i] + offsets[c]
+            end_of_row = ended[c]
+            if began[c] == end_of_row:
+                continue
             k = first[c]
-            while k < n and (rows[k] < row or (rows[k] == row and xs[k] < x - reach)):
-                k += 1
+            k += np.uint32(k < end_of_row and xs[k] < least)
+            k += np.uint32(k < end_of_row and xs[k] < least)
+            while k < end_of_row and xs[k] < least:
+                k += one
             first[c] = k
-            k = max(k, last[c])
-            while k < n and (rows[k] < row or (rows[k] == row and xs[k] < x + reach)):
-                k += 1
+            begin, k = k, max(k, last[c])
+            k += np.uint32(k < end_of_row and xs[k] < most)
+            k += np.uint32(k < end_of_row and xs[k] < most)
+            while k < end_of_row and xs[k] < most:
+                k += one
             last[c] = k
-            for j in range(np.uint32(first[c]), np.uint32(k)):
+            for j in range(begin, k):
                 dx, dy, dz = x - xs[j], y - ys[j], z - zs[j]
                 r2 = dx * dx + dy * dy + dz * dz
                 near[count], squares[count] = j, r2
-                count += (r2 < square) & (j != i)
+                count += np.uint32(r2 < square)
         start[i] = p
         if p + np.uint64(count) > np.uint64(room):
             return False
         walled = side[i, 3] < SUPPORT
         total, sx, sy, sz = np.float32(weight(0.0)), np.float32(0.0), np.float32(0.0), np.float32(0.0)
         fx, fy, fz, own = 0.0, 0.0, 0.0, 0.5 * strength[i]
-        for m in range(np.uint32(count)):
+        for m in range(count):
             j = near[m]
+            if j == i:
+                continue
             dx, dy, dz = x - xs[j], y - ys[j], z - zs[j]
             if walled and side[j, 3] < SUPPORT:
                 facing = side[i, 0] * side[j, 0] + side[i, 1] * side[j, 1] + side[i, 2] * side[j, 2]

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
+from prolepsis.kernels import njit
 from prolepsis.log import FREE
 from prolepsis.things import BoolArray, FloatArray, IntArray
 
@@ -42,3 +44,25 @@ class ParticleState:
     def free(self) -> BoolArray:
         """Whether each particle flows, shape (P,)."""
         return self.holder == FREE
+
+
+@njit(cache=True)
+def greatest_speed(velocity: FloatArray, holder: npt.NDArray[np.int16]) -> float:
+    """Return the speed of the fastest free particle [m/s], 0 if there is none."""
+    greatest = 0.0
+    for i in range(len(velocity)):
+        if holder[i] == FREE:
+            x, y, z = velocity[i, 0], velocity[i, 1], velocity[i, 2]
+            greatest = max(greatest, x * x + y * y + z * z)
+    return math.sqrt(greatest)
+
+
+@njit(cache=True)
+def first_beyond(position: FloatArray, holder: npt.NDArray[np.int16], centre: FloatArray, reach: float) -> int:
+    """Return the first free particle that is further than ``reach`` [m] from ``centre``, or nowhere; -1 for none."""
+    for i in range(len(position)):
+        if holder[i] == FREE:
+            x, y, z = position[i, 0] - centre[0], position[i, 1] - centre[1], position[i, 2] - centre[2]
+            if not x * x + y * y + z * z <= reach * reach:
+                return i
+    return -1

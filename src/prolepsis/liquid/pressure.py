@@ -52,7 +52,7 @@ def solve_pressure(
         density: Kernel sum with walls and air [1], shape (n,).
         contacts: What each particle sees of the walls.
         impulse: Pressure impulses; in: first guess, which the velocities contain, out: result [N s m], shape (n,).
-        push: Impulses of the walls' surfaces, out [N s], shape (n, SEEN).
+        push: Impulses of the walls' surfaces, in and out alike [N s], shape (n, SEEN).
         mobility: Of the bodies, shape (B, 10).
         yielded: By how much their velocity and spin differ from the walls', changed, shape (B, 6).
         spacing: [m].
@@ -62,7 +62,9 @@ def solve_pressure(
         most_sweeps: At most so many.
     """
     n = len(velocity)
+    # Arrays of their own: to fetch one from a tuple, or a row as a view, costs as much as a neighbour.
     start, end, other, gradient, _ = neighbours
+    seen, bodies, distance, normal, wall, arm, _, slope, _ = contacts
     least = REST_DISTANCE * spacing
     # Own part of each row: liquid alone, for what the neighbours' velocities are compared with.
     own, wanted, inverse = np.empty((n, 3)), np.empty(n), np.empty(n)
@@ -70,15 +72,13 @@ def solve_pressure(
         kappa = impulse[i]
         sx, sy, sz = steepness[i, 0], steepness[i, 1], steepness[i, 2]
         diagonal = (sx * sx + sy * sy + sz * sz) * inverse_mass[i]
-        for f in range(contacts.seen[i]):
-            push[i, f] = 0.0
-            slope, normal = contacts.slope[i, f], contacts.normal[i, f]
-            body = contacts.body[i, f]
-            if mobility[body, 0] > 0.0:
-                diagonal += slope * slope * softness(mobility[body], contacts.arm[i, f], normal)
-            sx -= slope * normal[0]
-            sy -= slope * normal[1]
-            sz -= slope * normal[2]
+        for f in range(seen[i]):
+            nx, ny, nz, k = normal[i, f, 0], normal[i, f, 1], normal[i, f, 2], slope[i, f]
+            if mobility[bodies[i, f], 0] > 0.0:
+                diagonal += k * k * softness(mobility[bodies[i, f]], arm[i, f], normal[i, f])
+            sx -= k * nx
+            sy -= k * ny
+            sz -= k * nz
         own[i, 0], own[i, 1], own[i, 2] = sx, sy, sz
         for p in range(start[i], end[i]):
             gx, gy, gz = gradient[p, 0], gradient[p, 1], gradient[p, 2]
@@ -101,60 +101,59 @@ def solve_pressure(
                 residual -= (
                     gradient[p, 0] * velocity[j, 0] + gradient[p, 1] * velocity[j, 1] + gradient[p, 2] * velocity[j, 2]
                 )
-            seen = contacts.seen[i]
-            for f in range(seen):
-                normal, wall = contacts.normal[i, f], contacts.velocity[i, f]
-                closing = normal[0] * (vx - wall[0]) + normal[1] * (vy - wall[1]) + normal[2] * (vz - wall[2])
-                body = contacts.body[i, f]
-                if mobility[body, 0] > 0.0:
-                    closing -= along(yielded[body], contacts.arm[i, f], normal)
-                residual += contacts.slope[i, f] * closing
+            for f in range(seen[i]):
+                closing = (
+                    normal[i, f, 0] * (vx - wall[i, f, 0])
+                    + normal[i, f, 1] * (vy - wall[i, f, 1])
+                    + normal[i, f, 2] * (vz - wall[i, f, 2])
+                )
+                if mobility[bodies[i, f], 0] > 0.0:
+                    closing -= along(yielded[bodies[i, f]], arm[i, f], normal[i, f])
+                residual += slope[i, f] * closing
             if residual > 0.0:
                 error += residual
             change = max(residual * inverse[i], -impulse[i])
             # Rows that are good enough need not disturb their neighbours.
             if abs(residual) > negligible and change != 0.0:
                 impulse[i] += change
-                _apply(i, change, velocity, inverse_mass, neighbours, steepness)
-                for f in range(seen):
-                    body = contacts.body[i, f]
+                mine = change * inverse_mass[i]
+                velocity[i, 0] -= mine * steepness[i, 0]
+                velocity[i, 1] -= mine * steepness[i, 1]
+                velocity[i, 2] -= mine * steepness[i, 2]
+                for p in range(start[i], end[i]):
+                    j = other[p]
+                    theirs = change * inverse_mass[j]
+                    velocity[j, 0] += theirs * gradient[p, 0]
+                    velocity[j, 1] += theirs * gradient[p, 1]
+                    velocity[j, 2] += theirs * gradient[p, 2]
+                for f in range(seen[i]):
+                    body = bodies[i, f]
                     if mobility[body, 0] > 0.0:
-                        normal, size = contacts.normal[i, f], change * contacts.slope[i, f]
-                        give_way(
-                            yielded[body],
-                            mobility[body],
-                            contacts.arm[i, f],
-                            size * normal[0],
-                            size * normal[1],
-                            size * normal[2],
-                        )
-            for f in range(seen):
-                gap = contacts.distance[i, f] - least
+                        give_way(yielded[body], mobility[body], arm[i, f], change * slope[i, f], normal[i, f])
+            for f in range(seen[i]):
+                gap = distance[i, f] - least
                 if gap > spacing:
                     continue
-                normal, wall = contacts.normal[i, f], contacts.velocity[i, f]
-                closing = 0.0
-                for c in range(3):
-                    closing += normal[c] * (velocity[i, c] - wall[c])
+                nx, ny, nz = normal[i, f, 0], normal[i, f, 1], normal[i, f, 2]
+                closing = (
+                    nx * (velocity[i, 0] - wall[i, f, 0])
+                    + ny * (velocity[i, 1] - wall[i, f, 1])
+                    + nz * (velocity[i, 2] - wall[i, f, 2])
+                )
                 limit = -gap / dt if gap > 0.0 else -CORRECTION * gap / dt
-                body, soft = contacts.body[i, f], inverse_mass[i]
+                body, soft = bodies[i, f], inverse_mass[i]
                 if mobility[body, 0] > 0.0:
-                    closing -= along(yielded[body], contacts.arm[i, f], normal)
-                    soft += softness(mobility[body], contacts.arm[i, f], normal)
+                    closing -= along(yielded[body], arm[i, f], normal[i, f])
+                    soft += softness(mobility[body], arm[i, f], normal[i, f])
                 more = max((limit - closing) / soft, -push[i, f])
                 if more != 0.0:
                     push[i, f] += more
                     if mobility[body, 0] > 0.0:
-                        give_way(
-                            yielded[body],
-                            mobility[body],
-                            contacts.arm[i, f],
-                            -more * normal[0],
-                            -more * normal[1],
-                            -more * normal[2],
-                        )
-                    for c in range(3):
-                        velocity[i, c] += more * inverse_mass[i] * normal[c]
+                        give_way(yielded[body], mobility[body], arm[i, f], -more, normal[i, f])
+                    mine = more * inverse_mass[i]
+                    velocity[i, 0] += mine * nx
+                    velocity[i, 1] += mine * ny
+                    velocity[i, 2] += mine * nz
         sweep += 1
         error *= dt / n
         if sweep >= least_sweeps and error < tolerance:
@@ -165,34 +164,49 @@ def solve_pressure(
 @njit(cache=True, fastmath=True)
 def apply_impulses(
     impulse: FloatArray,
+    pressed: FloatArray,
     velocity: FloatArray,
     inverse_mass: FloatArray,
     neighbours: Neighbours,
     steepness: FloatArray,
+    contacts: Contacts,
+    spacing: float,
+    push: FloatArray,
 ) -> None:
-    """Add to the velocities what the pressure impulses do; arguments as in ``solve_pressure``."""
-    for i in range(len(velocity)):
-        if impulse[i] > 0.0:
-            _apply(i, impulse[i], velocity, inverse_mass, neighbours, steepness)
+    """Add to the velocities what the impulses of the last step would do in this one.
 
-
-@njit(cache=True, fastmath=True, inline="always")
-def _apply(
-    i: int,
-    kappa: float,
-    velocity: FloatArray,
-    inverse_mass: FloatArray,
-    neighbours: Neighbours,
-    steepness: FloatArray,
-) -> None:
+    Args:
+        impulse: Pressure impulses [N s m], shape (n,).
+        pressed: Impulse of all walls' surfaces on each particle [N s], shape (n, 3).
+        velocity: As in ``solve_pressure``; so are those that follow.
+        inverse_mass: ..
+        neighbours: ..
+        steepness: ..
+        contacts: ..
+        spacing: ..
+        push: What the surfaces that are near have of ``pressed``, out [N s], shape (n, SEEN).
+    """
     start, end, other, gradient, _ = neighbours
-    own = kappa * inverse_mass[i]
-    velocity[i, 0] -= own * steepness[i, 0]
-    velocity[i, 1] -= own * steepness[i, 1]
-    velocity[i, 2] -= own * steepness[i, 2]
-    for p in range(start[i], end[i]):
-        j = other[p]
-        theirs = kappa * inverse_mass[j]
-        velocity[j, 0] += theirs * gradient[p, 0]
-        velocity[j, 1] += theirs * gradient[p, 1]
-        velocity[j, 2] += theirs * gradient[p, 2]
+    seen, _, distance, normal, _, _, _, _, _ = contacts
+    for i in range(len(velocity)):
+        px, py, pz = pressed[i, 0], pressed[i, 1], pressed[i, 2]
+        for f in range(seen[i]):
+            nx, ny, nz = normal[i, f, 0], normal[i, f, 1], normal[i, f, 2]
+            size = max(px * nx + py * ny + pz * nz, 0.0) if distance[i, f] < spacing else 0.0
+            push[i, f] = size
+            px, py, pz = px - size * nx, py - size * ny, pz - size * nz
+            velocity[i, 0] += size * inverse_mass[i] * nx
+            velocity[i, 1] += size * inverse_mass[i] * ny
+            velocity[i, 2] += size * inverse_mass[i] * nz
+        if impulse[i] <= 0.0:
+            continue
+        mine = impulse[i] * inverse_mass[i]
+        velocity[i, 0] -= mine * steepness[i, 0]
+        velocity[i, 1] -= mine * steepness[i, 1]
+        velocity[i, 2] -= mine * steepness[i, 2]
+        for p in range(start[i], end[i]):
+            j = other[p]
+            theirs = impulse[i] * inverse_mass[j]
+            velocity[j, 0] += theirs * gradient[p, 0]
+            velocity[j, 1] += theirs * gradient[p, 1]
+            velocity[j, 2] += theirs * gradient[p, 2]

@@ -12,16 +12,16 @@ from prolepsis.fields.faces import Solids
 from prolepsis.liquid.calming import calm
 from prolepsis.liquid.kernel import SUPPORT, pair_table, wall_tables
 from prolepsis.liquid.neighbours import find_neighbours, no_neighbours, row_order
-from prolepsis.liquid.particles import ParticleState
+from prolepsis.liquid.particles import ParticleState, greatest_speed
 from prolepsis.liquid.pressure import apply_impulses, solve_pressure
 from prolepsis.liquid.reaction import add_adhesion, add_drag, add_pressure, pin_edges
 from prolepsis.liquid.surface import complete_density
 from prolepsis.liquid.viscosity import solve_viscosity
 from prolepsis.liquid.walls import SEEN, Bodies, empty_contacts, find_walls, keep_outside
-from prolepsis.liquid.yielding import about, inertia_of, response
+from prolepsis.liquid.yielding import about, response
 from prolepsis.things import FloatArray, IntArray
 
-COURANT = 0.5
+COURANT = 1.0
 """Share of a spacing that the fastest particle may go in one step [1]."""
 GREATEST_GROWTH = 1.5
 """Factor up to which the last step's impulses are scaled up for a longer one [1]."""
@@ -37,6 +37,8 @@ PRESSURE_SWEEPS = (2, 40)
 """Least and greatest number of sweeps of the pressure solver."""
 CALMING_SPEED = 0.05
 """Speed with which jitter is passed on from neighbour to neighbour [m/s]."""
+CALMING_SHARE = 0.1
+"""Share of the jitter that is worth a look at the flow around each particle [1]."""
 VISCOUS_TOLERANCE = 1.0e-3
 """Residual over right-hand side at which the viscous solver ends [1]."""
 VISCOUS_ITERATIONS = 100
@@ -56,7 +58,7 @@ class Effort:
     error: float = 0.0
     """Sum over steps of the mean compression that was left [1]."""
     seconds: dict[str, float] = field(default_factory=dict[str, float])
-    """Processor time of each part [s]."""
+    """Time of each part [s]."""
 
 
 class Liquid:
@@ -67,11 +69,12 @@ class Liquid:
         self.particles = particles
         self.effort = Effort()
         self._gravity = np.array(gravity)
+        self._fall = float(np.linalg.norm(gravity)) * LONGEST
         self._tables = wall_tables()
         count = len(particles.mass)
         self._impulse = np.zeros(count)
-        self._viscous = np.zeros((count, 3))
-        self._last = 1.0e-3
+        self._viscous, self._pressed = np.zeros((count, 3)), np.zeros((count, 3))
+        self._last, self._jitter = 1.0e-3, 0.0
         # Force and torque on each body in the last step, and the part of it that was drag.
         self._pushed, self._dragged = np.zeros((0, 6)), np.zeros((0, 6))
         self._grow(ROOM)
@@ -91,14 +94,8 @@ class Liquid:
     def next_step(self) -> float:
         """Return the longest step that the fastest free particle allows [s]."""
         p = self.particles
-        free = p.free
-        if not free.any():
-            return LONGEST
-        v = p.velocity[free]
-        fastest = float(np.sqrt(np.einsum("ij,ij->i", v, v).max()))
-        fall = float(np.linalg.norm(self._gravity)) * LONGEST
-        by_speed = COURANT * p.spacing / max(fastest + fall, 1e-9)
-        return float(np.clip(min(by_speed, self._ripple), SHORTEST, LONGEST))
+        by_speed = COURANT * p.spacing / max(greatest_speed(p.velocity, p.holder) + self._fall, 1e-9)
+        return max(min(by_speed, self._ripple, LONGEST), SHORTEST)
 
     def step(self, dt: float, solids: Solids, bodies: Bodies, after: Bodies) -> FloatArray:
         """Move the free particles on by ``dt`` [s].
@@ -139,21 +136,26 @@ class Liquid:
         add_adhesion(contacts, strength, wetting, tables.pull, spacing, force)
         complete_density(contacts, density, steepness, tables.air, -tables.share_slope[0], spacing)
         v += dt * (self._gravity + force / mass[:, None])
-        calm(x, v, mass, near, min(CALMING_SPEED * dt / spacing, 0.5))
+        self._jitter += CALMING_SPEED * dt / spacing
+        if self._jitter >= CALMING_SHARE:
+            calm(x, v, mass, near, min(self._jitter, 0.5))
+            self._jitter = 0.0
         clock.lap("attraction")
         # What a much shorter step had to correct says little of this one.
         longer = min(dt / self._last, GREATEST_GROWTH)
         impulse = self._impulse[ids] * longer
         # Before viscosity, or what the last pressures do wrong at single particles would never be damped.
-        apply_impulses(impulse, v, inverse_mass, near, steepness)
+        push = np.zeros((n, SEEN))
+        pressed = self._pressed[ids] * longer
+        apply_impulses(impulse, pressed, v, inverse_mass, near, steepness, contacts, spacing, push)
         guess = self._viscous[ids] * longer
-        slip, push = np.zeros((n, SEEN)), np.zeros((n, SEEN))
+        slip = np.zeros((n, SEEN))
         if len(self._pushed) != len(reaction):
             self._pushed, self._dragged = np.zeros_like(reaction), np.zeros_like(reaction)
         mobility, yielded = bodies.mobility, np.zeros_like(reaction)
         self.effort.iterations += solve_viscosity(
-            v, guess, mass, viscosity, near, contacts, tables.drag, spacing, dt, VISCOUS_TOLERANCE, VISCOUS_ITERATIONS, slip, inertia_of(mobility),
-            self._dragged * dt, yielded,
+            v, guess, mass, viscosity, near, contacts, tables.drag, spacing, dt, VISCOUS_TOLERANCE,
+            VISCOUS_ITERATIONS, slip, bodies.inertia, self._dragged * dt, yielded,
         )  # fmt: skip
         add_drag(contacts, v, slip, yielded, x, reaction)
         dragged = about(bodies.centre, reaction) / dt
@@ -164,10 +166,11 @@ class Liquid:
             add_pressure(contacts, impulse, push, strength, wetting, tables.pull, spacing, dt, x, guessed)
             yielded += response(mobility, about(bodies.centre, guessed) - dt * (self._pushed - self._dragged))
         sweeps, error = solve_pressure(
-            v, inverse_mass, near, steepness, density, contacts, impulse, push,
-            mobility, yielded, spacing, dt, PRESSURE_TOLERANCE * dt, *PRESSURE_SWEEPS,
+            v, inverse_mass, near, steepness, density, contacts, impulse, push, mobility, yielded, spacing, dt,
+            PRESSURE_TOLERANCE * dt, *PRESSURE_SWEEPS,
         )  # fmt: skip
         self._impulse[ids] = impulse
+        self._pressed[ids] = (push[:, :, None] * contacts.normal[:n]).sum(axis=1)
         self.effort.sweeps += sweeps
         self.effort.error += error
         clock.lap("pressure")
@@ -184,13 +187,13 @@ class Liquid:
 
 
 class _Clock:
-    """Adds the processor time between laps to an effort."""
+    """Adds the time between laps to an effort."""
 
     def __init__(self, effort: Effort) -> None:
         self._seconds = effort.seconds
-        self._then = time.thread_time()
+        self._then = time.perf_counter()
 
     def lap(self, part: str) -> None:
-        now = time.thread_time()
+        now = time.perf_counter()
         self._seconds[part] = self._seconds.get(part, 0.0) + now - self._then
         self._then = now

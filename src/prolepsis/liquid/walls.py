@@ -24,8 +24,6 @@ class Bodies(NamedTuple):
 
     first: IntArray
     """First solid of each body; one more for the end, shape (B + 1,)."""
-    reach: FloatArray
-    """Centre in the body's frame and radius of the ball around it [m], shape (B, 4)."""
     rotation: FloatArray
     """Rows of the rotation to the world, shape (B, 9)."""
     position: FloatArray
@@ -39,6 +37,8 @@ class Bodies(NamedTuple):
     mobility: FloatArray
     """Inverse mass [1/kg], then the rows of the inverse inertia in the world [1/(kg m^2)]; zeros for a body that does
     not yield to the liquid, shape (B, 10)."""
+    inertia: FloatArray
+    """Mass [kg], then the rows of the inertia in the world [kg m^2]; zeros for the same, shape (B, 10)."""
 
 
 class Contacts(NamedTuple):
@@ -126,7 +126,8 @@ def find_walls(
     """Fill in what each particle sees of the walls, and in ``side`` the nearest face (normal, distance in spacings)."""
     n, body_count = len(position), len(bodies.first) - 1
     reach = SUPPORT * spacing
-    found = np.zeros((MOST_FACES, 4))
+    local, which = np.empty((n, 3)), np.empty(n, dtype=np.int64)
+    found, count = np.empty((n, MOST_FACES, 4)), np.empty(n, dtype=np.int64)
     for i in range(n):
         contacts.seen[i] = 0
         contacts.share[i] = 0.0
@@ -141,16 +142,22 @@ def find_walls(
             _world_box(solids.frame[k], solids.bounds[k], r, bodies.position[b], reach, middle, half)
             mx, my, mz = middle[0], middle[1], middle[2]
             hx, hy, hz = half[0], half[1], half[2]
+            near = 0
             for i in range(n):
                 if abs(position[i, 2] - mz) > hz or abs(position[i, 0] - mx) > hx or abs(position[i, 1] - my) > hy:
                     continue
                 dx, dy, dz = position[i, 0] - ox, position[i, 1] - oy, position[i, 2] - oz
-                x = r[0] * dx + r[3] * dy + r[6] * dz
-                y = r[1] * dx + r[4] * dy + r[7] * dz
-                z = r[2] * dx + r[5] * dy + r[8] * dz
-                count = faces_of(solids, k, x, y, z, reach, found)
-                for f in range(count):
-                    distance = found[f, 0]
+                local[near, 0] = r[0] * dx + r[3] * dy + r[6] * dz
+                local[near, 1] = r[1] * dx + r[4] * dy + r[7] * dz
+                local[near, 2] = r[2] * dx + r[5] * dy + r[8] * dz
+                which[near] = i
+                near += 1
+            faces_of(solids, k, local, near, reach, found, count)
+            for m in range(near):
+                i = which[m]
+                dx, dy, dz = position[i, 0] - ox, position[i, 1] - oy, position[i, 2] - oz
+                for f in range(count[m]):
+                    distance = found[m, f, 0]
                     place = contacts.seen[i]
                     if place == SEEN:
                         if distance >= contacts.distance[i, SEEN - 1]:
@@ -159,12 +166,13 @@ def find_walls(
                     while place > 0 and contacts.distance[i, place - 1] > distance:
                         contacts.distance[i, place] = contacts.distance[i, place - 1]
                         contacts.body[i, place] = contacts.body[i, place - 1]
-                        contacts.normal[i, place] = contacts.normal[i, place - 1]
-                        contacts.velocity[i, place] = contacts.velocity[i, place - 1]
+                        for c in range(3):
+                            contacts.normal[i, place, c] = contacts.normal[i, place - 1, c]
+                            contacts.velocity[i, place, c] = contacts.velocity[i, place - 1, c]
                         place -= 1
                     contacts.distance[i, place] = distance
                     contacts.body[i, place] = b
-                    nx, ny, nz = found[f, 1], found[f, 2], found[f, 3]
+                    nx, ny, nz = found[m, f, 1], found[m, f, 2], found[m, f, 3]
                     contacts.normal[i, place, 0] = r[0] * nx + r[1] * ny + r[2] * nz
                     contacts.normal[i, place, 1] = r[3] * nx + r[4] * ny + r[5] * nz
                     contacts.normal[i, place, 2] = r[6] * nx + r[7] * ny + r[8] * nz
@@ -176,7 +184,8 @@ def find_walls(
         count = contacts.seen[i]
         if count == 0:
             continue
-        side[i, :3] = contacts.normal[i, 0]
+        for c in range(3):
+            side[i, c] = contacts.normal[i, 0, c]
         side[i, 3] = contacts.distance[i, 0] / spacing
         room = 1.0
         for f in range(count):
@@ -221,46 +230,79 @@ def keep_outside(
         dt: Length of the step [s].
     """
     least = REST_DISTANCE * spacing
-    found = np.zeros((MOST_FACES, 4))
+    body_count = len(bodies.first) - 1
+    # Particles that will be near a face, in the order of the face's rank and its body.
+    begin = np.zeros(SEEN * body_count + 1, dtype=np.int64)
     for i in range(len(position)):
         for f in range(before.seen[i]):
-            b = before.body[i, f]
-            ahead = before.distance[i, f]
-            for c in range(3):
-                ahead += (velocity[i, c] - before.velocity[i, f, c]) * dt * before.normal[i, f, c]
-            if ahead > 1.2 * least:
+            if _ahead(before, i, f, velocity, dt) <= 1.2 * least:
+                begin[f * body_count + before.body[i, f] + 1] += 1
+    begin = begin.cumsum()
+    total, filled = begin[-1], begin.copy()
+    which, ahead = np.empty(total, dtype=np.int64), np.empty(total)
+    for i in range(len(position)):
+        for f in range(before.seen[i]):
+            distance = _ahead(before, i, f, velocity, dt)
+            if distance <= 1.2 * least:
+                place = filled[f * body_count + before.body[i, f]]
+                which[place], ahead[place] = i, distance
+                filled[f * body_count + before.body[i, f]] += 1
+    local, found = np.empty((total, 3)), np.empty((total, MOST_FACES, 4))
+    count = np.empty(total, dtype=np.int64)
+    # Distance to the body and its normal there.
+    nearest = np.empty((total, 4))
+    for f in range(SEEN):
+        for b in range(body_count):
+            r, here = bodies.rotation[b], begin[f * body_count + b]
+            near = begin[f * body_count + b + 1] - here
+            for m in range(near):
+                i = which[here + m]
+                dx = position[i, 0] - bodies.position[b, 0]
+                dy = position[i, 1] - bodies.position[b, 1]
+                dz = position[i, 2] - bodies.position[b, 2]
+                local[m, 0] = r[0] * dx + r[3] * dy + r[6] * dz
+                local[m, 1] = r[1] * dx + r[4] * dy + r[7] * dz
+                local[m, 2] = r[2] * dx + r[5] * dy + r[8] * dz
+                nearest[m, 0] = np.inf
+            if near == 0:
                 continue
-            nx, ny, nz = before.normal[i, f, 0], before.normal[i, f, 1], before.normal[i, f, 2]
-            r = bodies.rotation[b]
-            dx = position[i, 0] - bodies.position[b, 0]
-            dy = position[i, 1] - bodies.position[b, 1]
-            dz = position[i, 2] - bodies.position[b, 2]
-            x = r[0] * dx + r[3] * dy + r[6] * dz
-            y = r[1] * dx + r[4] * dy + r[7] * dz
-            z = r[2] * dx + r[5] * dy + r[8] * dz
-            nearest, mx, my, mz = np.inf, 0.0, 0.0, 0.0
             for k in range(bodies.first[b], bodies.first[b + 1]):
-                count = faces_of(solids, k, x, y, z, least, found)
-                if count > 0 and found[0, 0] < nearest:
-                    nearest, mx, my, mz = found[0, 0], found[0, 1], found[0, 2], found[0, 3]
-            if nearest >= least:
-                continue
-            gx = r[0] * mx + r[1] * my + r[2] * mz
-            gy = r[3] * mx + r[4] * my + r[5] * mz
-            gz = r[6] * mx + r[7] * my + r[8] * mz
-            push = least - nearest
-            if gx * nx + gy * ny + gz * nz < -0.3 and f == 0:
-                # It has passed the middle of the wall: back to where it came from.
-                push, gx, gy, gz = least - ahead, nx, ny, nz
-            if push <= 0.0:
-                continue
-            position[i, 0] += push * gx
-            position[i, 1] += push * gy
-            position[i, 2] += push * gz
-            inward = 0.0
-            v = before.velocity[i, f]
-            inward = (velocity[i, 0] - v[0]) * gx + (velocity[i, 1] - v[1]) * gy + (velocity[i, 2] - v[2]) * gz
-            if inward < 0.0:
-                velocity[i, 0] -= inward * gx
-                velocity[i, 1] -= inward * gy
-                velocity[i, 2] -= inward * gz
+                faces_of(solids, k, local, near, least, found, count)
+                for m in range(near):
+                    if count[m] > 0 and found[m, 0, 0] < nearest[m, 0]:
+                        for c in range(4):
+                            nearest[m, c] = found[m, 0, c]
+            for m in range(near):
+                i = which[here + m]
+                if nearest[m, 0] >= least:
+                    continue
+                mx, my, mz = nearest[m, 1], nearest[m, 2], nearest[m, 3]
+                gx = r[0] * mx + r[1] * my + r[2] * mz
+                gy = r[3] * mx + r[4] * my + r[5] * mz
+                gz = r[6] * mx + r[7] * my + r[8] * mz
+                push = least - nearest[m, 0]
+                nx, ny, nz = before.normal[i, f, 0], before.normal[i, f, 1], before.normal[i, f, 2]
+                if gx * nx + gy * ny + gz * nz < -0.3 and f == 0:
+                    # It has passed the middle of the wall: back to where it came from.
+                    push, gx, gy, gz = least - ahead[here + m], nx, ny, nz
+                if push <= 0.0:
+                    continue
+                position[i, 0] += push * gx
+                position[i, 1] += push * gy
+                position[i, 2] += push * gz
+                inward = (velocity[i, 0] - before.velocity[i, f, 0]) * gx
+                inward += (velocity[i, 1] - before.velocity[i, f, 1]) * gy
+                inward += (velocity[i, 2] - before.velocity[i, f, 2]) * gz
+                if inward < 0.0:
+                    velocity[i, 0] -= inward * gx
+                    velocity[i, 1] -= inward * gy
+                    velocity[i, 2] -= inward * gz
+
+
+@njit(cache=True, inline="always")
+def _ahead(before: Contacts, i: int, f: int, velocity: FloatArray, dt: float) -> float:
+    """Return how far a particle will be from a face that it sees now [m]."""
+    ahead = before.distance[i, f]
+    for c in range(3):
+        ahead += (velocity[i, c] - before.velocity[i, f, c]) * dt * before.normal[i, f, c]
+    return ahead

@@ -13,8 +13,9 @@ from prolepsis.things import FloatArray
 
 
 @njit(cache=True, inline="always")
-def give_way(yielded: FloatArray, mobility: FloatArray, arm: FloatArray, x: float, y: float, z: float) -> None:
-    """Change a body's velocity and spin, shape (6,), by an impulse [N s] at the end of ``arm``."""
+def give_way(yielded: FloatArray, mobility: FloatArray, arm: FloatArray, size: float, normal: FloatArray) -> None:
+    """Change a body's velocity and spin, shape (6,), by an impulse [N s] along ``normal`` at the end of ``arm``."""
+    x, y, z = size * normal[0], size * normal[1], size * normal[2]
     yielded[0] += mobility[0] * x
     yielded[1] += mobility[0] * y
     yielded[2] += mobility[0] * z
@@ -51,21 +52,24 @@ def softness(mobility: FloatArray, arm: FloatArray, normal: FloatArray) -> float
     return mobility[0] + spun
 
 
+@njit(cache=True)
 def response(mobility: FloatArray, wrench: FloatArray) -> FloatArray:
     """Return the changes of velocity and spin by impulses and their moments about the centres of mass, shape (B, 6)."""
-    spun = np.einsum("bij,bj->bi", mobility[:, 1:].reshape(-1, 3, 3), wrench[:, 3:])
-    return np.concatenate([mobility[:, :1] * wrench[:, :3], spun], axis=1)
+    made = np.zeros_like(wrench)
+    for b in range(len(wrench)):
+        w = wrench[b]
+        made[b, :3] = mobility[b, 0] * w[:3]
+        turn(made[b], mobility[b], w[3], w[4], w[5])
+    return made
 
 
+@njit(cache=True)
 def about(centre: FloatArray, wrench: FloatArray) -> FloatArray:
     """Return impulses and moments about the world's origin with the moments about ``centre``, shape (B, 6)."""
-    return np.concatenate([wrench[:, :3], wrench[:, 3:] - np.cross(centre, wrench[:, :3])], axis=1)
-
-
-def inertia_of(mobility: FloatArray) -> FloatArray:
-    """Return mass and inertia of the bodies that yield, zeros for the others, shape (B, 10)."""
-    inertia = np.zeros_like(mobility)
-    yields = mobility[:, 0] > 0.0
-    inertia[yields, 0] = 1.0 / mobility[yields, 0]
-    inertia[yields, 1:] = np.linalg.inv(mobility[yields, 1:].reshape(-1, 3, 3)).reshape(-1, 9)
-    return inertia
+    moved = wrench.copy()
+    for b in range(len(wrench)):
+        c, push = centre[b], wrench[b]
+        moved[b, 3] -= c[1] * push[2] - c[2] * push[1]
+        moved[b, 4] -= c[2] * push[0] - c[0] * push[2]
+        moved[b, 5] -= c[0] * push[1] - c[1] * push[0]
+    return moved

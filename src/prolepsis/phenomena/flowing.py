@@ -9,8 +9,9 @@ import numpy as np
 
 from prolepsis.errors import InvalidSimulationError
 from prolepsis.liquid.bodies import WallBodies
-from prolepsis.liquid.particles import ParticleState
+from prolepsis.liquid.particles import ParticleState, first_beyond
 from prolepsis.liquid.solver import COURANT, LONGEST, Liquid
+from prolepsis.liquid.yielding import about
 from prolepsis.log import FREE, PARKED
 from prolepsis.phenomena.phenomenon import Draw, Phenomenon
 from prolepsis.scene.world import MAX_STEP
@@ -117,13 +118,12 @@ class Flowing(Phenomenon):
 
     def _push(self, state: State) -> None:
         state.data.xfrc_applied[:] = 0.0
-        for body, push in zip(self._walls.ids, self._force, strict=True):
-            centre = state.data.xipos[body]
-            state.data.xfrc_applied[body, :3] = push[:3]
-            state.data.xfrc_applied[body, 3:] = push[3:] - np.cross(centre, push[:3])
+        state.data.xfrc_applied[self._walls.ids] = about(state.data.xipos[self._walls.ids], self._force)
 
     def _park(self, state: State) -> None:
         particles = self.liquid.particles
+        if first_beyond(particles.position, particles.holder, self._centre, self._far) < 0:
+            return
         free = np.flatnonzero(particles.free)
         away: FloatArray = np.linalg.norm(particles.position[free] - self._centre, axis=1)
         if not np.isfinite(away).all():

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from prolepsis.fields.signed_distance import field_of
-from prolepsis.fields.solids import matrix
+from prolepsis.fields.solids import bounded, matrix
 from prolepsis.state import State
 from prolepsis.things import FloatArray
 
@@ -18,6 +20,19 @@ def solids_of(state: State) -> list[int]:
         and (carrier := int(state.carrier[i])) >= 0
         and (carrier == i or not state.world.is_body(things[carrier]))
     ]
+
+
+def touched(state: State, index: int, places: FloatArray, reach: float) -> bool:
+    """Return whether one of the world points, shape (n, 3), is nearer than ``reach`` [m] to a thing where it is now."""
+    shape = state.world.scene.things[index].shape
+    pose = state.pose(state.world.scene.things[index].name)
+    local = (places - pose[:3]) @ matrix(pose[3:])
+    solids = bounded(shape)
+    if len(solids) == len(shape.geoms):
+        low, high = np.array([solid.bounds() for solid in solids]).swapaxes(0, 1)
+        within = (local > low.min(axis=0) - reach) & (local < high.max(axis=0) + reach)
+        local = local[within.all(axis=1)]
+    return bool((field_of(shape).distance(local) < reach).any())
 
 
 def distance_to(state: State, index: int, places: FloatArray) -> FloatArray:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from prolepsis.phenomena.nearby import distance_to, solids_of
+from prolepsis.phenomena.nearby import solids_of, touched
 from prolepsis.phenomena.phenomenon import Draw, Phenomenon
 from prolepsis.scene.world import friction_of
 from prolepsis.state import State
@@ -33,7 +33,7 @@ class Wetting(Phenomenon):
         for index in solids_of(state):
             if index in self._wet:
                 continue
-            if float(distance_to(state, index, places).min()) < TOUCH_REACH * particles.spacing:
+            if touched(state, index, places, TOUCH_REACH * particles.spacing):
                 self._wetten(state, index)
 
     def _wetten(self, state: State, index: int) -> None:

@@ -196,7 +196,6 @@ class Tank:
         count = len(position)
         return Bodies(
             first=self._first,
-            reach=np.tile([0.0, 0.0, 0.0, 1e3], (count, 1)),
             rotation=np.ascontiguousarray(rotation.reshape(-1, 9)),
             position=np.ascontiguousarray(position),
             velocity=np.ascontiguousarray(velocity),
@@ -204,6 +203,7 @@ class Tank:
             centre=np.ascontiguousarray(position),
             # What is moved by a test does not yield.
             mobility=np.zeros((count, 10)),
+            inertia=np.zeros((count, 10)),
         )
 
 

@@ -172,7 +172,10 @@ def touch_surfaces(
         gap: How near it is [m], filled in, shape (F, P).
     """
     frame_count = position.shape[0]
-    faces = np.zeros((MOST_FACES, 4))
+    count = position.shape[1]
+    which, local = np.empty(count, dtype=np.int64), np.empty((count, 3))
+    faces, seen = np.empty((count, MOST_FACES, 4)), np.empty(count, dtype=np.int64)
+    manners, gaps = np.empty(count, dtype=np.int64), np.empty(count)
     here, before, after = np.zeros(3), np.zeros(3), np.zeros(3)
     least, most = low - reach, high + reach
     for f in range(frame_count):
@@ -181,19 +184,26 @@ def touch_surfaces(
         still = (poses[first] == poses[last]).all()
         way = rest_speed * max((tick[last] - tick[first]) * dt, 1e-9)
         ux, uy, uz = _turned_back(pose, up[0], up[1], up[2])
-        for p in range(position.shape[1]):
+        near = 0
+        for p in range(count):
             if not look[f, p]:
                 continue
             _into(pose, position, f, p, here)
             if not (least[0] < here[0] < most[0] and least[1] < here[1] < most[1] and least[2] < here[2] < most[2]):
                 continue
-            how, nearest = 0, reach
-            for k in range(len(solids.kind)):
-                count = faces_of(solids, k, here[0], here[1], here[2], reach, faces)
-                for i in range(count):
-                    nearest = min(nearest, faces[i, 0])
-                    upward = faces[i, 1] * ux + faces[i, 2] * uy + faces[i, 3] * uz
-                    how = max(how, 2 if upward >= level_cosine else 1)
+            for c in range(3):
+                local[near, c] = here[c]
+            which[near], manners[near], gaps[near] = p, 0, reach
+            near += 1
+        for k in range(len(solids.kind)):
+            faces_of(solids, k, local, near, reach, faces, seen)
+            for m in range(near):
+                for i in range(seen[m]):
+                    gaps[m] = min(gaps[m], faces[m, i, 0])
+                    upward = faces[m, i, 1] * ux + faces[m, i, 2] * uy + faces[m, i, 3] * uz
+                    manners[m] = max(manners[m], 2 if upward >= level_cosine else 1)
+        for m in range(near):
+            p, how, nearest = which[m], manners[m], gaps[m]
             if how == 2:
                 square = 0.0
                 if not still:
