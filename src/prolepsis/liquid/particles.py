@@ -47,6 +47,14 @@ class ParticleState:
 
 
 @njit(cache=True)
+def put(target: FloatArray, ids: IntArray, rows: FloatArray) -> None:
+    """Write rows of three to where they belong; numpy takes ten times as long."""
+    for k in range(len(ids)):
+        for c in range(3):
+            target[ids[k], c] = rows[k, c]
+
+
+@njit(cache=True)
 def greatest_speed(velocity: FloatArray, holder: npt.NDArray[np.int16]) -> float:
     """Return the speed of the fastest free particle [m/s], 0 if there is none."""
     greatest = 0.0

@@ -34,6 +34,7 @@ def solve_pressure(
     contacts: Contacts,
     impulse: FloatArray,
     push: FloatArray,
+    pressed: FloatArray,
     mobility: FloatArray,
     yielded: FloatArray,
     spacing: float,
@@ -53,6 +54,7 @@ def solve_pressure(
         contacts: What each particle sees of the walls.
         impulse: Pressure impulses; in: first guess, which the velocities contain, out: result [N s m], shape (n,).
         push: Impulses of the walls' surfaces, in and out alike [N s], shape (n, SEEN).
+        pressed: Their sum for each particle, out [N s], shape (n, 3).
         mobility: Of the bodies, shape (B, 10).
         yielded: By how much their velocity and spin differ from the walls', changed, shape (B, 6).
         spacing: [m].
@@ -158,6 +160,11 @@ def solve_pressure(
         error *= dt / n
         if sweep >= least_sweeps and error < tolerance:
             break
+    for i in range(n):
+        for c in range(3):
+            pressed[i, c] = 0.0
+            for f in range(seen[i]):
+                pressed[i, c] += push[i, f] * normal[i, f, c]
     return sweep, error
 
 

@@ -12,7 +12,7 @@ from prolepsis.fields.faces import Solids
 from prolepsis.liquid.calming import calm
 from prolepsis.liquid.kernel import SUPPORT, pair_table, wall_tables
 from prolepsis.liquid.neighbours import find_neighbours, no_neighbours, row_order
-from prolepsis.liquid.particles import ParticleState, greatest_speed
+from prolepsis.liquid.particles import ParticleState, greatest_speed, put
 from prolepsis.liquid.pressure import apply_impulses, solve_pressure
 from prolepsis.liquid.reaction import add_adhesion, add_drag, add_pressure, pin_edges
 from prolepsis.liquid.surface import complete_density
@@ -115,10 +115,10 @@ class Liquid:
         if not len(free):
             return reaction
         clock = _Clock(self.effort)
-        order, rows, layer = row_order(p.position[free], SUPPORT * spacing)
+        order, rows, layer = row_order(p.position.take(free, axis=0), SUPPORT * spacing)
         ids = free[order]
         n = len(ids)
-        x, v, mass = p.position[ids], p.velocity[ids], p.mass[ids]
+        x, v, mass = p.position.take(ids, axis=0), p.velocity.take(ids, axis=0), p.mass[ids]
         strength = p.tension[ids] * spacing / tables.surface_energy
         wetting, viscosity = p.wetting[ids], p.viscosity[ids]
         density, steepness, force = np.empty(n), np.empty((n, 3)), np.empty((n, 3))
@@ -146,9 +146,9 @@ class Liquid:
         impulse = self._impulse[ids] * longer
         # Before viscosity, or what the last pressures do wrong at single particles would never be damped.
         push = np.zeros((n, SEEN))
-        pressed = self._pressed[ids] * longer
+        pressed = self._pressed.take(ids, axis=0) * longer
         apply_impulses(impulse, pressed, v, inverse_mass, near, steepness, contacts, spacing, push)
-        guess = self._viscous[ids] * longer
+        guess = self._viscous.take(ids, axis=0) * longer
         slip = np.zeros((n, SEEN))
         if len(self._pushed) != len(reaction):
             self._pushed, self._dragged = np.zeros_like(reaction), np.zeros_like(reaction)
@@ -159,18 +159,18 @@ class Liquid:
         )  # fmt: skip
         add_drag(contacts, v, slip, yielded, x, reaction)
         dragged = about(bodies.centre, reaction) / dt
-        self._viscous[ids] = guess
+        put(self._viscous, ids, guess)
         clock.lap("viscosity")
         if mobility.any():
             guessed = np.zeros_like(reaction)
             add_pressure(contacts, impulse, push, strength, wetting, tables.pull, spacing, dt, x, guessed)
             yielded += response(mobility, about(bodies.centre, guessed) - dt * (self._pushed - self._dragged))
         sweeps, error = solve_pressure(
-            v, inverse_mass, near, steepness, density, contacts, impulse, push, mobility, yielded, spacing, dt,
+            v, inverse_mass, near, steepness, density, contacts, impulse, push, pressed, mobility, yielded, spacing, dt,
             PRESSURE_TOLERANCE * dt, *PRESSURE_SWEEPS,
         )  # fmt: skip
         self._impulse[ids] = impulse
-        self._pressed[ids] = (push[:, :, None] * contacts.normal[:n]).sum(axis=1)
+        put(self._pressed, ids, pressed)
         self.effort.sweeps += sweeps
         self.effort.error += error
         clock.lap("pressure")
@@ -179,7 +179,8 @@ class Liquid:
         self._pushed, self._dragged = about(bodies.centre, reaction) / dt, dragged
         x += dt * v
         keep_outside(x, v, contacts, spacing, solids, after, dt)
-        p.position[ids], p.velocity[ids] = x, v
+        put(p.position, ids, x)
+        put(p.velocity, ids, v)
         self._last = dt
         self.effort.steps += 1
         clock.lap("walls")

@@ -60,6 +60,7 @@ def solve_viscosity(
     """
     n = len(velocity)
     start, end, other, gradient, drag = neighbours
+    seen, bodies, distance, _, wall, arms, weight, _, _ = contacts
     volume = spacing**3
     found = velocity + guess
     residual, diagonal = np.empty((n, 3)), np.empty((n, 3))
@@ -88,17 +89,17 @@ def solve_viscosity(
             dy += factor * gy * gy
             dz += factor * gz * gz
         sx, sy, sz = mass[i] * velocity[i, 0], mass[i] * velocity[i, 1], mass[i] * velocity[i, 2]
-        for f in range(contacts.seen[i]):
-            q = contacts.distance[i, f] / spacing
-            k = contacts.weight[i, f] * read_table(drag_table, q) * viscosity[i] * spacing * dt
+        for f in range(seen[i]):
+            q = distance[i, f] / spacing
+            k = weight[i, f] * read_table(drag_table, q) * viscosity[i] * spacing * dt
             slip[i, f] = k
-            wall, b = contacts.velocity[i, f], contacts.body[i, f]
-            sx, sy, sz = sx + k * wall[0], sy + k * wall[1], sz + k * wall[2]
+            wx, wy, wz, b = wall[i, f, 0], wall[i, f, 1], wall[i, f, 2], bodies[i, f]
+            sx, sy, sz = sx + k * wx, sy + k * wy, sz + k * wz
             dx, dy, dz = dx + k, dy + k, dz + k
-            ux, uy, uz = k * (x - wall[0]), k * (y - wall[1]), k * (z - wall[2])
+            ux, uy, uz = k * (x - wx), k * (y - wy), k * (z - wz)
             rx, ry, rz = rx - ux, ry - uy, rz - uz
             if inertia[b, 0] > 0.0:
-                arm = contacts.arm[i, f]
+                arm = arms[i, f]
                 _add_wrench(body_residual[b], arm, ux, uy, uz)
                 square = arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2]
                 for c in range(3):
@@ -207,6 +208,7 @@ def _multiply(
 ) -> None:
     """Multiply velocities of particles and of bodies with masses and drags."""
     start, end, other, gradient, factor = neighbours
+    seen, walls, _, _, _, arms, _, _, _ = contacts
     for b in range(len(bodies)):
         m, v = inertia[b], bodies[b]
         for c in range(3):
@@ -223,18 +225,15 @@ def _multiply(
             sx += along * gx
             sy += along * gy
             sz += along * gz
-        for f in range(contacts.seen[i]):
-            k, b = slip[i, f], contacts.body[i, f]
-            ux, uy, uz = x, y, z
-            if inertia[b, 0] > 0.0:
-                v, arm = bodies[b], contacts.arm[i, f]
-                ux -= v[0] + v[4] * arm[2] - v[5] * arm[1]
-                uy -= v[1] + v[5] * arm[0] - v[3] * arm[2]
-                uz -= v[2] + v[3] * arm[1] - v[4] * arm[0]
-            ux, uy, uz = k * ux, k * uy, k * uz
-            sx += ux
-            sy += uy
-            sz += uz
-            if inertia[b, 0] > 0.0:
-                _add_wrench(body_product[b], contacts.arm[i, f], -ux, -uy, -uz)
+        for f in range(seen[i]):
+            k, b = slip[i, f], walls[i, f]
+            if inertia[b, 0] == 0.0:
+                sx, sy, sz = sx + k * x, sy + k * y, sz + k * z
+                continue
+            v, arm = bodies[b], arms[i, f]
+            ux = k * (x - v[0] - v[4] * arm[2] + v[5] * arm[1])
+            uy = k * (y - v[1] - v[5] * arm[0] + v[3] * arm[2])
+            uz = k * (z - v[2] - v[3] * arm[1] + v[4] * arm[0])
+            sx, sy, sz = sx + ux, sy + uy, sz + uz
+            _add_wrench(body_product[b], arm, -ux, -uy, -uz)
         product[i, 0], product[i, 1], product[i, 2] = sx, sy, sz
