@@ -10,22 +10,15 @@ from prolepsis.fluents.intervals import debounce, ticks_of
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.particle_places import Places, places
 from prolepsis.fluents.registry import event
+from prolepsis.fluents.stuff import FLOWING_SPEED, MOST, STUFF_GAP, STUFF_LEAST
 from prolepsis.log import FREE, PARKED
 from prolepsis.things import BoolArray, FloatArray
 from prolepsis.timeline import Fact
 
-FLOWING_SPEED = 0.02
-"""Speed of a particle that flows [m/s]."""
 FLOWING_WINDOW = 0.1
 """Time over which that speed is taken [s]; what jitters in place gets nowhere."""
 FALLING_SPEED = 0.3
 """Downward speed of a particle that falls and touches nothing [m/s], that after 5 mm."""
-MOST = 0.5
-"""Share of a liquid's mass [1] that must move or fall for the liquid to do so."""
-PAUSE = 0.1
-"""Gap in what a liquid does that is not noticed [s]."""
-LEAST = 0.05
-"""Shortest time that a liquid is seen to do something [s]."""
 
 
 @event("moving", "o")
@@ -75,6 +68,6 @@ def _ways(observation: Observation) -> tuple[FloatArray, FloatArray]:
 def _mostly(observation: Observation, seen: Places, type: str, mask: BoolArray) -> Iterator[Fact]:
     for stuff in seen.stuffs():
         fraction = seen.at_ticks(seen.fraction(mask, stuff), observation.tick_count)
-        for start, end in debounce(fraction >= MOST, observation.dt, gap=PAUSE, least=LEAST):
+        for start, end in debounce(fraction >= MOST, observation.dt, gap=STUFF_GAP, least=STUFF_LEAST):
             evidence = {"fraction": float(fraction[start:end].max())}
             yield observation.fact("event", type, (observation.unit_names[stuff],), (start, end), evidence)

@@ -23,7 +23,7 @@ from prolepsis.things import BoolArray, FloatArray, IntArray
 from prolepsis.timeline import Fact
 
 FLOWING_SPEED = 0.02
-"""Speed of a blob that flows over a surface [m/s]."""
+"""Speed of a blob or a particle that flows [m/s]."""
 STUFF_GAP = 0.1
 """Gap in what a stuff does that is not noticed [s]."""
 STUFF_LEAST = 0.05

@@ -35,11 +35,25 @@ def add_adhesion(
     """
     for i in range(len(force)):
         for f in range(contacts.seen[i]):
-            pull = read_table(pull_table, contacts.distance[i, f] / spacing)
-            # Work of adhesion over work of cohesion (Young and Dupre).
-            pull *= 0.5 * (1.0 + wetting[i]) * strength[i] * contacts.weight[i, f]
+            pull = _pull(contacts, i, f, strength, wetting, pull_table, spacing)
             for c in range(3):
                 force[i, c] -= pull * contacts.normal[i, f, c]
+
+
+@njit(cache=True, inline="always")
+def _pull(
+    contacts: Contacts,
+    i: int,
+    f: int,
+    strength: FloatArray,
+    wetting: FloatArray,
+    pull_table: FloatArray,
+    spacing: float,
+) -> float:
+    """Return the attraction of a particle by a face that it sees [N]."""
+    # Work of adhesion over work of cohesion (Young and Dupre).
+    share = 0.5 * (1.0 + wetting[i]) * contacts.weight[i, f]
+    return share * strength[i] * read_table(pull_table, contacts.distance[i, f] / spacing)
 
 
 @njit(cache=True)
@@ -168,9 +182,8 @@ def add_pressure(
     """
     for i in range(len(impulse)):
         for f in range(contacts.seen[i]):
-            pull = read_table(pull_table, contacts.distance[i, f] / spacing)
-            pull *= 0.5 * (1.0 + wetting[i]) * strength[i] * contacts.weight[i, f] * dt
-            size = impulse[i] * contacts.slope[i, f] - push[i, f] + pull
+            pull = _pull(contacts, i, f, strength, wetting, pull_table, spacing)
+            size = impulse[i] * contacts.slope[i, f] - push[i, f] + pull * dt
             normal = contacts.normal[i, f]
             _add(
                 bodies[contacts.body[i, f]],

@@ -39,7 +39,7 @@ CALMING_SPEED = 0.05
 """Speed with which jitter is passed on from neighbour to neighbour [m/s]."""
 CALMING_SHARE = 0.1
 """Share of the jitter that is worth a look at the flow around each particle [1]."""
-VISCOUS_TOLERANCE = 1.0e-3
+VISCOUS_TOLERANCE = 3.0e-3
 """Residual over right-hand side at which the viscous solver ends [1]."""
 VISCOUS_ITERATIONS = 100
 """Greatest number of iterations of the viscous solver."""
@@ -133,7 +133,9 @@ class Liquid:
         clock.lap("neighbours")
         near, inverse_mass = self._neighbours, 1.0 / mass
         alone = density.copy()
-        add_adhesion(contacts, strength, wetting, tables.pull, spacing, force)
+        adhesion = np.zeros((n, 3))
+        add_adhesion(contacts, strength, wetting, tables.pull, spacing, adhesion)
+        force += adhesion
         complete_density(contacts, density, steepness, tables.air, -tables.share_slope[0], spacing)
         v += dt * (self._gravity + force / mass[:, None])
         self._jitter += CALMING_SPEED * dt / spacing
@@ -146,7 +148,8 @@ class Liquid:
         impulse = self._impulse[ids] * longer
         # Before viscosity, or what the last pressures do wrong at single particles would never be damped.
         push = np.zeros((n, SEEN))
-        pressed = self._pressed.take(ids, axis=0) * longer
+        # What adhesion adds to the push is left to the pressure, which makes a liquid that wets spread.
+        pressed = self._pressed.take(ids, axis=0) * longer + dt * adhesion
         apply_impulses(impulse, pressed, v, inverse_mass, near, steepness, contacts, spacing, push)
         guess = self._viscous.take(ids, axis=0) * longer
         slip = np.zeros((n, SEEN))
