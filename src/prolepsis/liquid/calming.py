@@ -35,7 +35,7 @@ def calm(
         share: Share of the jitter that is exchanged [1].
     """
     n = len(velocity)
-    start, end, other, gradient, _ = neighbours
+    start, end, other, gradient, _, _ = neighbours
     flow = np.zeros((n, 9))
     known = np.zeros(n, dtype=np.bool_)
     for i in range(n):

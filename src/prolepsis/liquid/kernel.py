@@ -36,6 +36,10 @@ ATTRACTION_START = 0.95
 """Distance below which neighbours do not attract but repel each other [spacings]."""
 
 
+INNER, OUTER = 0.98, 0.90
+"""Sums of liquid and walls from which on a particle is within, and up to which it is of the surface [1]."""
+
+
 @njit(cache=True, inline="always")
 def weight(q: float) -> float:
     """Return the kernel times the spacing cubed at ``q`` spacings [1]."""
@@ -71,14 +75,20 @@ def pair_table() -> Singles:
     """Return what two neighbours are to each other, over the square of their distance, shape (PAIR_TABLE_SIZE, 4).
 
     Columns, all in spacings: kernel; its derivative over the distance; factor of the viscous force; attraction over
-    the distance.
+    the kernel's steepness.
     """
     table = np.zeros((PAIR_TABLE_SIZE, 4), dtype=np.float32)
     for k, square in enumerate(np.linspace(0.0, SUPPORT**2, PAIR_TABLE_SIZE)):
         q = max(float(np.sqrt(square)), 1e-3)
         w = slope(q)
-        table[k] = weight(q), w / q, 10.0 * q / ((q * q + 0.01) * max(-w, 1e-4)), attraction(q) / q
+        table[k] = weight(q), w / q, 10.0 * q / ((q * q + 0.01) * max(-w, 1e-4)), attraction(q) / max(-w, 1e-4)
     return table
+
+
+@njit(cache=True, inline="always")
+def edge(density: float) -> float:
+    """Return how much a particle with a given sum of liquid and walls belongs to the surface, from 0 to 1."""
+    return min(max((INNER - density) / (INNER - OUTER), 0.0), 1.0)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -96,9 +106,9 @@ class WallTables:
     pull: FloatArray
     """Attraction by the wall, as strong as that of the same liquid [1]."""
     surface_energy: float
-    """Surface tension times spacing over the strength of the attraction [1].
-
-    Source: half the work that parts two half spaces, ``pi / 8 n^2 integral of f r^4``."""
+    """Surface tension over the strength of the attraction and the spacing [1], when only the surface attracts."""
+    parting_energy: float
+    """The same when all attract each other: half the work that parts two half spaces, ``pi / 8 integral of f r^4``."""
 
 
 @lru_cache(maxsize=1)
@@ -118,10 +128,18 @@ def wall_tables() -> WallTables:
         share_slope[n] = -(w[beyond] * 2 * np.pi * rb).sum() * dr
         pull[n] = (attractions[beyond] * np.pi * rb**2 * (1 - (y / rb) ** 2)).sum() * dr
         drag[n] = _drag(y, r, dr, slopes)
-    energy = float((attractions * r**4).sum() * dr) * np.pi / 8
+    energy = _surface_energy(share, r[::20], attractions[::20], 20 * dr)
     lacking = np.sqrt(1.0 - share_slope / share_slope[0])
     air = np.interp(np.linspace(0.0, 1.0, TABLE_SIZE), lacking, share)
-    return WallTables(share=share, share_slope=share_slope, air=air, drag=drag, pull=pull, surface_energy=energy)
+    return WallTables(
+        share=share,
+        share_slope=share_slope,
+        air=air,
+        drag=drag,
+        pull=pull,
+        surface_energy=energy,
+        parting_energy=float((attractions * r**4).sum() * dr) * np.pi / 8,
+    )
 
 
 def _drag(y: float, r: FloatArray, dr: float, slopes: FloatArray) -> float:
@@ -135,3 +153,21 @@ def _drag(y: float, r: FloatArray, dr: float, slopes: FloatArray) -> float:
     q = r[beyond]
     pull = float((-slopes[beyond] * q**2 * (1 - (distance / q) ** 2) ** 2).sum() * dr) * 10 * np.pi / 4
     return pull / distance
+
+
+def _surface_energy(share: FloatArray, r: FloatArray, attractions: FloatArray, dr: float) -> float:
+    """Return the surface tension of a half space whose neighbours attract each other with strength 1 at its edge.
+
+    Source: the difference of the pressures across and along a flat surface, integrated over the depth (Kirkwood and
+    Buff, Journal of Chemical Physics 17:338, 1949).
+    """
+    step = 0.02
+    depth = np.arange(step / 2, SUPPORT, step)
+    edges = np.array([edge(1.0 - value) for value in share])
+    at = np.interp(depth, np.linspace(0.0, SUPPORT, TABLE_SIZE), edges, right=0.0)
+    cosine = np.linspace(-1.0, 1.0, 201)[:-1] + 0.005
+    there = depth[:, None, None] + r[None, :, None] * cosine[None, None, :]
+    both = 0.5 * (at[:, None, None] + np.interp(there, np.linspace(0.0, SUPPORT, TABLE_SIZE), edges, right=0.0))
+    both[there < 0.0] = 0.0
+    along = (both * (1.0 - 3.0 * cosine**2)).sum(axis=(0, 2)) * step * 0.01
+    return float((attractions * r**3 * along).sum() * dr) * np.pi / 2

@@ -29,6 +29,8 @@ class Neighbours(NamedTuple):
     """Volume times gradient of the kernel for each neighbour [1/m], shape (room, 3)."""
     drag: Singles
     """What viscosity times ``(v . gradient) gradient`` is multiplied with for a force [m^3], shape (room,)."""
+    attraction: Singles
+    """What strength times spacing times ``gradient`` is multiplied with for a force [1], shape (room,)."""
 
 
 def no_neighbours(n: int, room: int) -> Neighbours:
@@ -39,6 +41,7 @@ def no_neighbours(n: int, room: int) -> Neighbours:
         other=np.zeros(room, dtype=np.uint32),
         gradient=np.zeros((room, 3), dtype=np.float32),
         drag=np.zeros(room, dtype=np.float32),
+        attraction=np.zeros(room, dtype=np.float32),
     )
 
 
@@ -108,8 +111,6 @@ def find_neighbours(
     neighbours: Neighbours,
     density: FloatArray,
     steepness: FloatArray,
-    strength: FloatArray,
-    force: FloatArray,
 ) -> bool:
     """Write each particle's neighbours with what depends on the distance alone, and return whether there is room.
 
@@ -124,11 +125,9 @@ def find_neighbours(
         neighbours: Written here; those of the first n particles.
         density: Kernel sum over the liquid [1], shape (n,).
         steepness: Its gradient [1/m], shape (n, 3).
-        strength: Attraction between neighbours [N], shape (n,).
-        force: Attraction, written here [N], shape (n, 3).
     """
     n = len(position)
-    start, end, other, gradient, drag = neighbours
+    start, end, other, gradient, drag, attraction = neighbours
     room = len(other)
     metre = np.float32(1.0 / spacing)
     # In spacings, and relative to a corner, single precision suffices and is twice as fast.
@@ -185,7 +184,6 @@ def find_neighbours(
             return False
         walled = side[i, 3] < SUPPORT
         total, sx, sy, sz = np.float32(weight(0.0)), np.float32(0.0), np.float32(0.0), np.float32(0.0)
-        fx, fy, fz, own = 0.0, 0.0, 0.0, 0.5 * strength[i]
         for m in range(count):
             j = near[m]
             if j == i:
@@ -213,13 +211,9 @@ def find_neighbours(
             sy += gy
             sz += gz
             drag[p] = entry[2] + part * (following[2] - entry[2])
-            pull = (own + 0.5 * strength[j]) * (entry[3] + part * (following[3] - entry[3]))
-            fx -= pull * dx
-            fy -= pull * dy
-            fz -= pull * dz
+            attraction[p] = entry[3] + part * (following[3] - entry[3])
             p += np.uint64(1)
         end[i] = p
         density[i] = total
         steepness[i, 0], steepness[i, 1], steepness[i, 2] = sx, sy, sz
-        force[i, 0], force[i, 1], force[i, 2] = fx, fy, fz
     return True

@@ -65,7 +65,7 @@ def solve_pressure(
     """
     n = len(velocity)
     # Arrays of their own: to fetch one from a tuple, or a row as a view, costs as much as a neighbour.
-    start, end, other, gradient, _ = neighbours
+    start, end, other, gradient, _, _ = neighbours
     seen, bodies, distance, normal, wall, arm, _, slope, _ = contacts
     least = REST_DISTANCE * spacing
     # Own part of each row: liquid alone, for what the neighbours' velocities are compared with.
@@ -193,7 +193,7 @@ def apply_impulses(
         spacing: ..
         push: What the surfaces that are near have of ``pressed``, out [N s], shape (n, SEEN).
     """
-    start, end, other, gradient, _ = neighbours
+    start, end, other, gradient, _, _ = neighbours
     seen, _, distance, normal, _, _, _, _, _ = contacts
     for i in range(len(velocity)):
         px, py, pz = pressed[i, 0], pressed[i, 1], pressed[i, 2]

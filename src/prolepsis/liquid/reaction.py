@@ -18,6 +18,7 @@ ALONE, LAYER = 0.318, 0.70
 def add_adhesion(
     contacts: Contacts,
     strength: FloatArray,
+    edges: FloatArray,
     wetting: FloatArray,
     pull_table: FloatArray,
     spacing: float,
@@ -27,7 +28,8 @@ def add_adhesion(
 
     Args:
         contacts: What each particle sees of the walls.
-        strength: Attraction between neighbours [N], shape (n,).
+        strength: Attraction between neighbours if all attract each other [N], shape (n,).
+        edges: How much each particle belongs to the surface [1], shape (n,).
         wetting: Cosine of the contact angle [1], shape (n,).
         pull_table: Pull of a wall of the liquid's own kind over the distance.
         spacing: [m].
@@ -35,7 +37,7 @@ def add_adhesion(
     """
     for i in range(len(force)):
         for f in range(contacts.seen[i]):
-            pull = _pull(contacts, i, f, strength, wetting, pull_table, spacing)
+            pull = _pull(contacts, i, f, strength, edges, wetting, pull_table, spacing)
             for c in range(3):
                 force[i, c] -= pull * contacts.normal[i, f, c]
 
@@ -46,13 +48,15 @@ def _pull(
     i: int,
     f: int,
     strength: FloatArray,
+    edges: FloatArray,
     wetting: FloatArray,
     pull_table: FloatArray,
     spacing: float,
 ) -> float:
     """Return the attraction of a particle by a face that it sees [N]."""
-    # Work of adhesion over work of cohesion (Young and Dupre).
-    share = 0.5 * (1.0 + wetting[i]) * contacts.weight[i, f]
+    # Work of adhesion over work of cohesion (Young and Dupre), less the pull of the liquid on this side, which deeper
+    # than its surface is left out.
+    share = (0.5 * (1.0 + wetting[i]) - (1.0 - edges[i])) * contacts.weight[i, f]
     return share * strength[i] * read_table(pull_table, contacts.distance[i, f] / spacing)
 
 
@@ -78,7 +82,7 @@ def pin_edges(
         velocity: [m/s], changed, shape (n, 3).
         mass: [kg], shape (n,).
         tension: Surface tension [N/m], shape (n,).
-        pinning: Range of the cosine of the contact angle [1], shape (n,).
+        pinning: Half the range of the cosine of the contact angle [1], shape (n,).
         density: Kernel sum over the liquid alone [1], shape (n,).
         position: [m], shape (n, 3).
         spacing: [m].
@@ -86,7 +90,8 @@ def pin_edges(
         bodies: As in ``add_pressure``.
 
     Source:
-        Furmidge, Journal of Colloid Science 17:309 (1962): a drop of width w is held by gamma w times that range.
+        Furmidge, Journal of Colloid Science 17:309 (1962): a drop of width w is held by gamma w times the range,
+        one half of it in front and one behind.
     """
     for i in range(len(velocity)):
         if contacts.seen[i] == 0 or contacts.distance[i, 0] > TOUCHING * spacing:
@@ -159,6 +164,7 @@ def add_pressure(
     impulse: FloatArray,
     push: FloatArray,
     strength: FloatArray,
+    edges: FloatArray,
     wetting: FloatArray,
     pull_table: FloatArray,
     spacing: float,
@@ -172,7 +178,8 @@ def add_pressure(
         contacts: What each particle sees of the walls.
         impulse: Pressure impulses, shape (n,).
         push: Impulses of the walls' surfaces on the particles [N s], shape (n, SEEN).
-        strength: Attraction between neighbours [N], shape (n,).
+        strength: Attraction between neighbours if all attract each other [N], shape (n,).
+        edges: How much each particle belongs to the surface [1], shape (n,).
         wetting: Cosine of the contact angle [1], shape (n,).
         pull_table: Pull of a wall over the distance.
         spacing: [m].
@@ -182,7 +189,7 @@ def add_pressure(
     """
     for i in range(len(impulse)):
         for f in range(contacts.seen[i]):
-            pull = _pull(contacts, i, f, strength, wetting, pull_table, spacing)
+            pull = _pull(contacts, i, f, strength, edges, wetting, pull_table, spacing)
             size = impulse[i] * contacts.slope[i, f] - push[i, f] + pull * dt
             normal = contacts.normal[i, f]
             _add(

@@ -15,7 +15,7 @@ from prolepsis.liquid.neighbours import find_neighbours, no_neighbours, row_orde
 from prolepsis.liquid.particles import ParticleState, greatest_speed, put
 from prolepsis.liquid.pressure import apply_impulses, solve_pressure
 from prolepsis.liquid.reaction import add_adhesion, add_drag, add_pressure, pin_edges
-from prolepsis.liquid.surface import complete_density
+from prolepsis.liquid.surface import add_tension, complete_density
 from prolepsis.liquid.viscosity import solve_viscosity
 from prolepsis.liquid.walls import SEEN, Bodies, empty_contacts, find_walls, keep_outside
 from prolepsis.liquid.yielding import about, response
@@ -119,24 +119,24 @@ class Liquid:
         ids = free[order]
         n = len(ids)
         x, v, mass = p.position.take(ids, axis=0), p.velocity.take(ids, axis=0), p.mass[ids]
-        strength = p.tension[ids] * spacing / tables.surface_energy
+        tension = p.tension[ids]
+        strength = tension * spacing / tables.surface_energy
         wetting, viscosity = p.wetting[ids], p.viscosity[ids]
-        density, steepness, force = np.empty(n), np.empty((n, 3)), np.empty((n, 3))
+        density, steepness = np.empty(n), np.empty((n, 3))
         side = np.zeros((n, 4))
         contacts = self._contacts
         find_walls(x, spacing, solids, bodies, tables.share, tables.share_slope, contacts, side)
         clock.lap("walls")
-        while not find_neighbours(
-            x, rows, layer, spacing, side, pair_table(), self._neighbours, density, steepness, strength, force
-        ):
+        while not find_neighbours(x, rows, layer, spacing, side, pair_table(), self._neighbours, density, steepness):
             self._grow(2 * self._room)
         clock.lap("neighbours")
         near, inverse_mass = self._neighbours, 1.0 / mass
         alone = density.copy()
-        adhesion = np.zeros((n, 3))
-        add_adhesion(contacts, strength, wetting, tables.pull, spacing, adhesion)
-        force += adhesion
-        complete_density(contacts, density, steepness, tables.air, -tables.share_slope[0], spacing)
+        edges, force = np.empty(n), np.zeros((n, 3))
+        complete_density(contacts, density, steepness, tables.air, -tables.share_slope[0], spacing, edges)
+        held = tension * spacing / tables.parting_energy
+        add_adhesion(contacts, held, edges, wetting, tables.pull, spacing, force)
+        add_tension(near, strength, edges, spacing, force)
         v += dt * (self._gravity + force / mass[:, None])
         self._jitter += CALMING_SPEED * dt / spacing
         if self._jitter >= CALMING_SHARE:
@@ -148,8 +148,7 @@ class Liquid:
         impulse = self._impulse[ids] * longer
         # Before viscosity, or what the last pressures do wrong at single particles would never be damped.
         push = np.zeros((n, SEEN))
-        # What adhesion adds to the push is left to the pressure, which makes a liquid that wets spread.
-        pressed = self._pressed.take(ids, axis=0) * longer + dt * adhesion
+        pressed = self._pressed.take(ids, axis=0) * longer
         apply_impulses(impulse, pressed, v, inverse_mass, near, steepness, contacts, spacing, push)
         guess = self._viscous.take(ids, axis=0) * longer
         slip = np.zeros((n, SEEN))
@@ -166,7 +165,7 @@ class Liquid:
         clock.lap("viscosity")
         if mobility.any():
             guessed = np.zeros_like(reaction)
-            add_pressure(contacts, impulse, push, strength, wetting, tables.pull, spacing, dt, x, guessed)
+            add_pressure(contacts, impulse, push, held, edges, wetting, tables.pull, spacing, dt, x, guessed)
             yielded += response(mobility, about(bodies.centre, guessed) - dt * (self._pushed - self._dragged))
         sweeps, error = solve_pressure(
             v, inverse_mass, near, steepness, density, contacts, impulse, push, pressed, mobility, yielded, spacing, dt,
@@ -177,8 +176,8 @@ class Liquid:
         self.effort.sweeps += sweeps
         self.effort.error += error
         clock.lap("pressure")
-        pin_edges(contacts, v, mass, p.tension[ids], p.pinning[ids], alone, x, spacing, dt, reaction)
-        add_pressure(contacts, impulse, push, strength, wetting, tables.pull, spacing, dt, x, reaction)
+        pin_edges(contacts, v, mass, tension, p.pinning[ids], alone, x, spacing, dt, reaction)
+        add_pressure(contacts, impulse, push, held, edges, wetting, tables.pull, spacing, dt, x, reaction)
         self._pushed, self._dragged = about(bodies.centre, reaction) / dt, dragged
         x += dt * v
         keep_outside(x, v, contacts, spacing, solids, after, dt)

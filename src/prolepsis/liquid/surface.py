@@ -1,11 +1,12 @@
-"""Walls and air in the kernel sums: what is missing near a wall or a free surface is made up for."""
+"""The surface: what is missing in the kernel sums near it or a wall is made up for; its particles attract others."""
 
 from __future__ import annotations
 
 import math
 
 from prolepsis.kernels import njit
-from prolepsis.liquid.kernel import TABLE_SIZE
+from prolepsis.liquid.kernel import TABLE_SIZE, edge
+from prolepsis.liquid.neighbours import Neighbours
 from prolepsis.liquid.walls import Contacts
 from prolepsis.things import FloatArray
 
@@ -18,6 +19,7 @@ def complete_density(
     air_table: FloatArray,
     steepest: float,
     spacing: float,
+    edges: FloatArray,
 ) -> None:
     """Add the walls' share and the air's to the kernel sums, and the walls' to their gradients.
 
@@ -32,6 +34,7 @@ def complete_density(
         air_table: ``air`` of the tables.
         steepest: Greatest steepness of a wall's share [1 / spacing].
         spacing: [m].
+        edges: How much each particle belongs to the surface, written here, shape (n,).
     """
     for i in range(len(density)):
         for f in range(contacts.seen[i]):
@@ -39,7 +42,34 @@ def complete_density(
                 steepness[i, c] += contacts.slope[i, f] * contacts.normal[i, f, c]
         s = steepness[i]
         gradient = math.sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) * spacing
-        density[i] += contacts.share[i] + _air_share(gradient, steepest, air_table)
+        density[i] += contacts.share[i]
+        edges[i] = edge(density[i])
+        density[i] += _air_share(gradient, steepest, air_table)
+
+
+@njit(cache=True, fastmath=True)
+def add_tension(
+    neighbours: Neighbours, strength: FloatArray, edges: FloatArray, spacing: float, force: FloatArray
+) -> None:
+    """Add the attraction between neighbours of which one belongs to the surface; deeper it would only order them.
+
+    Args:
+        neighbours: The neighbours of each.
+        strength: Attraction between neighbours [N], shape (n,).
+        edges: How much each particle belongs to the surface [1], shape (n,).
+        spacing: [m].
+        force: [N], shape (n, 3).
+    """
+    start, end, other, gradient, _, attraction = neighbours
+    for i in range(len(force)):
+        for p in range(start[i], end[i]):
+            j = other[p]
+            both = edges[i] + edges[j]
+            if both > 0.0:
+                pull = 0.25 * both * (strength[i] + strength[j]) * attraction[p] * spacing
+                force[i, 0] += pull * gradient[p, 0]
+                force[i, 1] += pull * gradient[p, 1]
+                force[i, 2] += pull * gradient[p, 2]
 
 
 @njit(cache=True, inline="always")

@@ -59,7 +59,7 @@ def solve_viscosity(
         yielded: Change of each body's velocity and spin by drag, written here, shape (B, 6).
     """
     n = len(velocity)
-    start, end, other, gradient, drag = neighbours
+    start, end, other, gradient, drag, _ = neighbours
     seen, bodies, distance, _, wall, arms, weight, _, _ = contacts
     volume = spacing**3
     found = velocity + guess
@@ -207,7 +207,7 @@ def _multiply(
     body_product: FloatArray,
 ) -> None:
     """Multiply velocities of particles and of bodies with masses and drags."""
-    start, end, other, gradient, factor = neighbours
+    start, end, other, gradient, factor, _ = neighbours
     seen, walls, _, _, _, arms, _, _, _ = contacts
     for b in range(len(bodies)):
         m, v = inertia[b], bodies[b]

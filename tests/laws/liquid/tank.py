@@ -72,7 +72,7 @@ class Tank:
             receding_angle: [rad].
             gravity: [m/s^2].
         """
-        count = len(position)
+        count, receding = len(position), min(receding_angle, contact_angle)
         self.particles = ParticleState(
             position=position.copy(),
             velocity=np.zeros((count, 3)),
@@ -82,8 +82,8 @@ class Tank:
             volume=np.full(count, spacing**3),
             viscosity=np.full(count, viscosity),
             tension=np.full(count, tension),
-            wetting=np.full(count, math.cos(contact_angle)),
-            pinning=np.full(count, max(math.cos(receding_angle) - math.cos(contact_angle), 0.0)),
+            wetting=np.full(count, (math.cos(receding) + math.cos(contact_angle)) / 2),
+            pinning=np.full(count, (math.cos(receding) - math.cos(contact_angle)) / 2),
             spacing=spacing,
         )
         self.liquid = Liquid(self.particles, gravity)
