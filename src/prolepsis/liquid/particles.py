@@ -34,9 +34,9 @@ class ParticleState:
     tension: FloatArray
     """Surface tension [N/m], shape (P,)."""
     wetting: FloatArray
-    """Cosine of the contact angle on walls, half-way between the advancing and the receding one [1], shape (P,)."""
+    """Cosine of the contact angle on walls [1], shape (P,)."""
     pinning: FloatArray
-    """How much that cosine may differ before an edge moves on or draws back [1], shape (P,)."""
+    """How much the cosine of the contact angle may differ before an edge moves [1], shape (P,)."""
     spacing: float
     """Distance of neighbours at rest [m]."""
 

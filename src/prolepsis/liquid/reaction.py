@@ -82,7 +82,7 @@ def pin_edges(
         velocity: [m/s], changed, shape (n, 3).
         mass: [kg], shape (n,).
         tension: Surface tension [N/m], shape (n,).
-        pinning: Half the range of the cosine of the contact angle [1], shape (n,).
+        pinning: Range of the cosine of the contact angle [1], shape (n,).
         density: Kernel sum over the liquid alone [1], shape (n,).
         position: [m], shape (n, 3).
         spacing: [m].
@@ -90,8 +90,7 @@ def pin_edges(
         bodies: As in ``add_pressure``.
 
     Source:
-        Furmidge, Journal of Colloid Science 17:309 (1962): a drop of width w is held by gamma w times the range,
-        one half of it in front and one behind.
+        Furmidge, Journal of Colloid Science 17:309 (1962): a drop of width w is held by gamma w times that range.
     """
     for i in range(len(velocity)):
         if contacts.seen[i] == 0 or contacts.distance[i, 0] > TOUCHING * spacing:

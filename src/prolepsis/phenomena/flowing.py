@@ -153,8 +153,8 @@ def _particles(state: State) -> ParticleState:
             volume,
             q["viscosity"],
             q.get("surfaceTension", 0.0),
-            (math.cos(receding) + math.cos(advancing)) / 2,
-            (math.cos(receding) - math.cos(advancing)) / 2,
+            math.cos(advancing),
+            math.cos(receding) - math.cos(advancing),
         ]
         columns.append(np.tile(np.array(row), (count, 1)))
         places.append(np.asarray(pool.position, dtype=np.float64).reshape(-1, 3))

@@ -82,8 +82,8 @@ class Tank:
             volume=np.full(count, spacing**3),
             viscosity=np.full(count, viscosity),
             tension=np.full(count, tension),
-            wetting=np.full(count, (math.cos(receding) + math.cos(contact_angle)) / 2),
-            pinning=np.full(count, (math.cos(receding) - math.cos(contact_angle)) / 2),
+            wetting=np.full(count, math.cos(contact_angle)),
+            pinning=np.full(count, math.cos(receding) - math.cos(contact_angle)),
             spacing=spacing,
         )
         self.liquid = Liquid(self.particles, gravity)
