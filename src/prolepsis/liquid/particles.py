@@ -39,6 +39,12 @@ class ParticleState:
     """How much the cosine of the contact angle may differ before an edge moves [1], shape (P,)."""
     spacing: float
     """Distance of neighbours at rest [m]."""
+    behind: float = 0.0
+    """Time since their last step [s]; the bodies are that much ahead."""
+
+    def now(self) -> FloatArray:
+        """Return where they are by now if they have gone on as in their last step, shape (P, 3)."""
+        return self.position + self.behind * self.free[:, None] * self.velocity
 
     @property
     def free(self) -> BoolArray:

@@ -28,7 +28,7 @@ class Frames:
         if state.particles is None or tick % PERIOD:
             return
         self.ticks.append(tick)
-        self.positions.append(rounded(state.particles.position))
+        self.positions.append(rounded(state.particles.now()))
         self.holders.append(state.particles.holder.copy())
 
     def columns(self, state: State) -> Particles:

@@ -10,7 +10,7 @@ import numpy as np
 from prolepsis.errors import InvalidSimulationError
 from prolepsis.liquid.bodies import WallBodies
 from prolepsis.liquid.particles import ParticleState, first_beyond
-from prolepsis.liquid.solver import COURANT, LONGEST, Liquid
+from prolepsis.liquid.solver import LONGEST, Liquid
 from prolepsis.liquid.yielding import about
 from prolepsis.log import FREE, PARKED
 from prolepsis.phenomena.phenomenon import Draw, Phenomenon
@@ -20,6 +20,8 @@ from prolepsis.things import FloatArray
 
 TICK = MAX_STEP
 """The liquid is looked at every tick [s]; a step of it takes several, one, or a part of one."""
+LONGEST_WAY = 0.5
+"""Way of the fastest wall after which a step of the liquid comes early [spacings]."""
 FAR = 2.0
 """Distance from all things at the start beyond which a particle is parked [m]."""
 LIGHTEST = 50.0
@@ -85,10 +87,11 @@ class Flowing(Phenomenon):
         if self._walls.refresh(state):
             self.liquid.forget_pushes()
             self._force = np.zeros((len(self._walls.ids), 6))
-        elif self._elapsed < self._ticks and self._walls.way(state) < COURANT * particles.spacing:
+        elif self._elapsed < self._ticks and self._walls.way(state) < LONGEST_WAY * particles.spacing:
+            particles.behind = self._elapsed * TICK
             return
         self._step(state, self._elapsed * TICK)
-        self._elapsed = 0
+        self._elapsed, particles.behind = 0, 0.0
         self._ticks = max(1, int(self.liquid.next_step() / TICK + 1e-9))
         self._push(state)
         self._park(state)
@@ -99,6 +102,7 @@ class Flowing(Phenomenon):
             state.data.xfrc_applied[:] = 0.0
             self._force[:] = 0.0
             self._elapsed, self._ticks, self._resting = 0, 1, True
+            self.liquid.particles.behind = 0.0
 
     def _step(self, state: State, dt: float) -> None:
         position, rotation, velocity, spin = self._walls.moved(state, dt)
