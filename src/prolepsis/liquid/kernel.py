@@ -14,6 +14,7 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 
+from prolepsis.fields.kept import kept_array
 from prolepsis.kernels import njit
 from prolepsis.things import FloatArray
 
@@ -128,7 +129,9 @@ def wall_tables() -> WallTables:
         share_slope[n] = -(w[beyond] * 2 * np.pi * rb).sum() * dr
         pull[n] = (attractions[beyond] * np.pi * rb**2 * (1 - (y / rb) ** 2)).sum() * dr
         drag[n] = _drag(y, r, dr, slopes)
-    energy = _surface_energy(share, r[::20], attractions[::20], 20 * dr)
+    coarse = share, r[::20], attractions[::20]
+    # It takes most of a second.
+    energy = float(kept_array("tension", coarse, lambda: np.array([_surface_energy(*coarse, 20 * dr)]))[0])
     lacking = np.sqrt(1.0 - share_slope / share_slope[0])
     air = np.interp(np.linspace(0.0, 1.0, TABLE_SIZE), lacking, share)
     return WallTables(
