@@ -18,8 +18,7 @@ from prolepsis.phenomena import PHENOMENA, Attach, Detachment, Draw
 from prolepsis.phenomena.breaking import Breaking
 from prolepsis.programs.commands import Begin, Command, End, Sense
 from prolepsis.programs.program import Program
-from prolepsis.robots.hand import HAND
-from prolepsis.robots.hand_control import HandControl
+from prolepsis.robots.control import Controls
 from prolepsis.scene.world import MAX_STEP, World
 from prolepsis.state import State
 from prolepsis.terms import Term
@@ -70,19 +69,16 @@ def simulate(
     things = world.scene.things
     drawing = Draw(rng=np.random.default_rng(seed), spread=draw)
     going = [controller for attach in phenomena for controller in attach(state, drawing)]
-    hands = {
-        thing.name: HandControl(state, thing.name, HAND, thing.quantities["opening"])
-        for thing in things
-        if "Gripper" in thing.roles
-    }
+    controls = Controls.of(state)
     recorder = Recorder()
     frames = Frames()
     channels = Channels(chosen_monitors(things, monitors))
-    watched = Watched(state=state, hands=hands, breaking={c.thing.name: c for c in going if isinstance(c, Breaking)})
+    breaking = {each.thing.name: each for each in going if isinstance(each, Breaking)}
+    watched = Watched(state=state, hands=controls.hands, breaking=breaking)
     detachments: list[tuple[int, Detachment]] = []
     running: dict[Term, list[int]] = {}
     actions: list[Action] = []
-    behaviour = program.start(_sense(state, hands, 0.0))
+    behaviour = program.start(_sense(state, controls, 0.0))
     ended_at: int | None = None
     tick = 0
     while True:
@@ -97,15 +93,12 @@ def simulate(
             progress(tick * TICK)
 
         # Program -> targets.
-        for command in behaviour.step(_sense(state, hands, tick * TICK)):
+        for command in behaviour.step(_sense(state, controls, tick * TICK)):
             _note(command, tick, running, actions)
-            for hand in hands.values():
-                if getattr(command, "hand", None) == hand.name:
-                    hand.accept(command)
+            controls.accept(command)
         if behaviour.ended and ended_at is None:
             ended_at = tick
-        for hand in hands.values():
-            hand.act(state, TICK)
+        controls.act(state, TICK)
 
         recorder.note_version(state)
         recorder.tick(state)
@@ -130,18 +123,14 @@ def simulate(
                 if state.version != version:
                     state.model.opt.timestep = TICK / count
                     recorder.note_version(state)
-                    for hand in hands.values():
-                        hand.bind(state)
+                    controls.bind(state)
                     # The forces are now those of the rebuilt model, which no step has used and no row holds yet.
                     break
         if state.warnings or int(state.data.warning.number.sum()):
             _refuse(state, tick)
         for phenomenon in going:
             phenomenon.tick(state)
-        if hands:
-            forces = state.normal_forces()
-            for hand in hands.values():
-                hand.measure(forces)
+        controls.measure(state)
         tick += 1
 
     cut = [(term, start) for term, starts in running.items() for start in starts]
@@ -162,9 +151,9 @@ def simulate(
     )
 
 
-def _sense(state: State, hands: dict[str, HandControl], time: float) -> Sense:
-    hand_senses = {name: hand.sense() for name, hand in hands.items()}
-    return Sense(time=time, hands=hand_senses, place=state.place, orientation=state.orientation)
+def _sense(state: State, controls: Controls, time: float) -> Sense:
+    hands, robots = controls.sense()
+    return Sense(time=time, hands=hands, place=state.place, orientation=state.orientation, robots=robots)
 
 
 def _note(command: Command, tick: int, running: dict[Term, list[int]], actions: list[Action]) -> None:

@@ -69,7 +69,7 @@ class State:
             world=world,
             spec=spec,
             model=model,
-            data=mujoco.MjData(model),
+            data=world.start(model),
             carrier=carrier,
             offsets=np.tile([0.0, 0, 0, 1, 0, 0, 0], (len(things), 1)),
         )

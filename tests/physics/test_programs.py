@@ -7,7 +7,7 @@ from tests.scenes import EGG_IN_HAND, scene
 
 from prolepsis.errors import InputError, PlanError, UnknownNameError
 from prolepsis.programs import ACTIONS, check_units, read_program
-from prolepsis.programs.commands import BaseTarget, Begin, CloseGripper, Command, End, HandSense, OpenGripper, Sense
+from prolepsis.programs.commands import HandTarget, Begin, CloseGripper, Command, End, HandSense, OpenGripper, Sense
 from prolepsis.robots.hand import HAND
 from prolepsis.scene import Scene
 from prolepsis.terms import Term, parse_term
@@ -29,7 +29,7 @@ class FakeHand:
     def obey(self, commands: tuple[Command, ...]) -> None:
         self.motion = 0
         for command in commands:
-            if isinstance(command, BaseTarget):
+            if isinstance(command, HandTarget):
                 self.offset, self.turn = command.offset, command.turn
             elif isinstance(command, OpenGripper):
                 self.opening = command.width
@@ -44,7 +44,8 @@ class FakeHand:
             turn=self.turn,
             opening=self.opening,
             grip=self.force,
-            load=(0.0, 0.0, min(HAND.position_gain * self.offset[2], 0.0)),
+            load=lambda: (0.0, 0.0, min(HAND.position_gain * self.offset[2], 0.0)),
+            stiffness=HAND.position_gain,
             pad_force=self.force,
             motion=self.motion,
         )
@@ -86,17 +87,17 @@ def test_together_begins_at_once_and_ends_with_the_last(egg_in_hand: Scene) -> N
 
 def test_a_move_keeps_to_its_acceleration_and_speed(egg_in_hand: Scene) -> None:
     said = carried_out("carry(hand1, [0.6, 0, 0.8], 4.0, 0.5)", egg_in_hand)
-    speeds = [sum(v * v for v in c.velocity) ** 0.5 for _, c in said if isinstance(c, BaseTarget)]
+    speeds = [sum(v * v for v in c.velocity) ** 0.5 for _, c in said if isinstance(c, HandTarget)]
     assert max(speeds) == pytest.approx(0.5, rel=0.01)
     steps = [abs(b - a) / 1e-3 for a, b in zip(speeds, speeds[1:], strict=False)]
     assert max(steps) <= 4.0
-    last = [c for _, c in said if isinstance(c, BaseTarget)][-1]
+    last = [c for _, c in said if isinstance(c, HandTarget)][-1]
     assert last.offset == pytest.approx((0.6, 0.0, 0.8))
 
 
 def test_a_tilt_keeps_to_its_rate_and_a_tilted_hand_stays_tilted_when_it_is_carried(egg_in_hand: Scene) -> None:
     said = carried_out("sequence([tilt(hand1, 1.2, 2.0), carry(hand1, [0.1, 0, 0], 4.0)])", egg_in_hand)
-    targets = [c for _, c in said if isinstance(c, BaseTarget)]
+    targets = [c for _, c in said if isinstance(c, HandTarget)]
     rolls = [c.turn[2] for c in targets]
     steps = [(b - a) / 1e-3 for a, b in zip(rolls, rolls[1:], strict=False)]
     assert max(steps) == pytest.approx(2.0, rel=0.01)
@@ -113,7 +114,7 @@ def test_squeezing_ends_with_the_grip_that_was_before(egg_in_hand: Scene) -> Non
 
 def test_wiping_presses_strokes_there_and_back_and_lets_go_of_the_surface(egg_in_hand: Scene) -> None:
     said = carried_out("wipe(hand1, egg1, table1, [0.1, 0.05, 0], 3, 2.0)", egg_in_hand)
-    offsets = [c.offset for _, c in said if isinstance(c, BaseTarget)]
+    offsets = [c.offset for _, c in said if isinstance(c, HandTarget)]
     # The surface of this hand is a spring at height 0.
     lowest = -2.0 / HAND.position_gain
     assert min(z for _, _, z in offsets) == pytest.approx(lowest, rel=0.02)

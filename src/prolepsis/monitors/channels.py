@@ -12,7 +12,8 @@ import numpy as np
 
 from prolepsis.errors import ScenarioError, UnknownNameError
 from prolepsis.phenomena.breaking import Breaking
-from prolepsis.robots.hand_control import HandControl
+from prolepsis.robots.arm_control import ArmHand
+from prolepsis.robots.flying_control import FlyingHand
 from prolepsis.state import State
 from prolepsis.things import FloatArray, Thing
 
@@ -22,7 +23,7 @@ class Watched:
     """What a monitor may look at."""
 
     state: State
-    hands: Mapping[str, HandControl]
+    hands: Mapping[str, FlyingHand | ArmHand]
     breaking: Mapping[str, Breaking]
     """Controllers of breakable things by name."""
 
@@ -62,25 +63,25 @@ def monitor(needs: str | None = None, *, default: bool = False) -> Callable[[Rea
 @monitor("Gripper", default=True)
 def opening(watched: Watched, thing: Thing) -> float:
     """Return the gap between the pads [m]."""
-    return watched.hands[thing.name].opening
+    return watched.hands[thing.name].gripper.opening
 
 
 @monitor("Gripper", default=True)
 def gripper(watched: Watched, thing: Thing) -> float:
     """Return 1 while the gripper opens, -1 while it closes, 0 when idle."""
-    return float(watched.hands[thing.name].motion)
+    return float(watched.hands[thing.name].gripper.motion)
 
 
 @monitor("Gripper", default=True)
 def pad_force(watched: Watched, thing: Thing) -> float:
     """Return the smaller of the two pads' normal forces [N]."""
-    return watched.hands[thing.name].pad_force
+    return watched.hands[thing.name].gripper.pad_force
 
 
 @monitor("Gripper", default=True)
 def command(watched: Watched, thing: Thing) -> float:
     """Return the commanded pad force [N]."""
-    return watched.hands[thing.name].command
+    return watched.hands[thing.name].gripper.command
 
 
 @monitor("Breakable", default=True)

@@ -10,7 +10,8 @@ import numpy as np
 
 from prolepsis.engine import mujoco
 from prolepsis.errors import InputError, UnknownNameError
-from prolepsis.things import FloatArray, Geom, IntArray, Quaternion, Shape, Thing, Triple
+from prolepsis.shapes.from_model import shape_of_geoms
+from prolepsis.things import IntArray, Quaternion, Thing, Triple
 
 # Numpy's integers do not equal MuJoCo's enumerators, so plain integers are compared.
 _PLANE = int(mujoco.mjtGeom.mjGEOM_PLANE)
@@ -19,15 +20,6 @@ _JOINT_DRIVES = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTIN
 _SITE_DRIVES = (int(mujoco.mjtTrn.mjTRN_SITE), int(mujoco.mjtTrn.mjTRN_SLIDERCRANK))
 _TENDON_DRIVE = int(mujoco.mjtTrn.mjTRN_TENDON)
 _JOINT_WRAP, _SITE_WRAP = int(mujoco.mjtWrap.mjWRAP_JOINT), int(mujoco.mjtWrap.mjWRAP_SITE)
-_GEOM_NAMES = {
-    int(mujoco.mjtGeom.mjGEOM_PLANE): "plane",
-    int(mujoco.mjtGeom.mjGEOM_SPHERE): "sphere",
-    int(mujoco.mjtGeom.mjGEOM_CAPSULE): "capsule",
-    int(mujoco.mjtGeom.mjGEOM_ELLIPSOID): "ellipsoid",
-    int(mujoco.mjtGeom.mjGEOM_CYLINDER): "cylinder",
-    int(mujoco.mjtGeom.mjGEOM_BOX): "box",
-    int(mujoco.mjtGeom.mjGEOM_MESH): "mesh",
-}
 SceneThings = Mapping[str, Thing] | Sequence[Thing]
 
 
@@ -173,7 +165,7 @@ def _tendon_roots(model: Any, tendon: int) -> set[int]:
 
 def _world_thing(model: Any, name: str, geoms: list[int]) -> Thing:
     planes = all(int(model.geom_type[geom]) == _PLANE for geom in geoms)
-    shape = _shape(model, geoms)
+    shape = shape_of_geoms(model, geoms)
     roles = frozenset({"Floor"}) if planes else frozenset[str]()
     return Thing(name=name, kind="Floor" if planes else "Thing", shape=shape, roles=roles, fixed=True)
 
@@ -193,7 +185,7 @@ def _body_thing(model: Any, data: Any, body: int, names: list[str], driven: set[
     return Thing(
         name=names[body],
         kind="Thing",
-        shape=_shape(model, [g for g in geoms if _collides(model, g)] or geoms),
+        shape=shape_of_geoms(model, [g for g in geoms if _collides(model, g)] or geoms),
         position=_triple(data.xpos[body]),
         orientation=_quaternion(data.xquat[body]),
         mass=float(model.body_subtreemass[body]),
@@ -201,38 +193,6 @@ def _body_thing(model: Any, data: Any, body: int, names: list[str], driven: set[
         roles=frozenset(roles),
         fixed=bool(fixed),
     )
-
-
-def _shape(model: Any, geoms: list[int]) -> Shape:
-    solids = tuple(_geom(model, geom) for geom in geoms if int(model.geom_type[geom]) in _GEOM_NAMES)
-    if not solids:
-        return Shape()
-    red, green, blue, alpha = (float(value) for value in model.geom_rgba[geoms[0]])
-    return Shape(geoms=solids, colour=(red, green, blue, alpha))
-
-
-def _geom(model: Any, geom: int) -> Geom:
-    kind = _GEOM_NAMES[int(model.geom_type[geom])]
-    vertices = _hull_vertices(model, int(model.geom_dataid[geom])) if kind == "mesh" else np.zeros((0, 3))
-    return Geom(
-        type=kind,
-        size=_triple(model.geom_size[geom]),
-        position=_triple(model.geom_pos[geom]),
-        orientation=_quaternion(model.geom_quat[geom]),
-        vertices=tuple(_triple(vertex) for vertex in vertices),
-    )
-
-
-def _hull_vertices(model: Any, mesh: int) -> FloatArray:
-    first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
-    vertices = np.asarray(model.mesh_vert[first : first + count], dtype=np.float64)
-    graph = int(model.mesh_graphadr[mesh])
-    if graph < 0:
-        return np.unique(vertices, axis=0)
-    # The hull graph: vertex count, face count, edge addresses, then the vertices' numbers in the mesh.
-    hull_count = int(model.mesh_graph[graph])
-    chosen = model.mesh_graph[graph + 2 + hull_count : graph + 2 + 2 * hull_count]
-    return vertices[np.asarray(chosen, dtype=np.int64)]
 
 
 def _triple(values: Any) -> Triple:

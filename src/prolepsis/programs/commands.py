@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Collection, Generator, Mapping
 from dataclasses import dataclass, field
+from typing import Protocol
 
 from prolepsis.terms import Term
-from prolepsis.things import Quaternion, Triple
+from prolepsis.things import IDENTITY, FloatArray, Quaternion, Triple
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class BaseTarget:
-    """Where a hand should be, seen from where it was at the start."""
+class HandTarget:
+    """Where a hand should be, seen from where it was at the start; the first orientation of a hand on an arm is level
+    and ahead."""
 
     hand: str
     offset: Triple
@@ -22,6 +24,32 @@ class BaseTarget:
     """Yaw, pitch and roll from the first orientation, about the hand's own axes [rad]."""
     spin: Triple = (0.0, 0.0, 0.0)
     """Its rate of change [rad/s]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class ArmTarget:
+    """Where the joints of the arm that carries a hand should be."""
+
+    hand: str
+    joints: tuple[float, ...]
+    """Coordinates, from the trunk outwards [rad]."""
+    speeds: tuple[float, ...]
+    """Their rates of change [rad/s]."""
+    offset: Triple
+    """Where that puts the hand, as in ``HandTarget`` [m]."""
+    turn: Triple
+    """How that turns the hand, as in ``HandTarget`` [rad]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class JointTarget:
+    """Where some joints of a robot should be that belong to none of its arms: base, torso, head."""
+
+    robot: str
+    joints: Mapping[str, float]
+    """Coordinates by joint [rad or m]."""
+    speeds: Mapping[str, float]
+    """Their rates of change [rad/s or m/s]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -65,7 +93,64 @@ class End:
     evidence: Mapping[str, float | str] = field(default_factory=dict[str, "float | str"])
 
 
-Command = BaseTarget | CloseGripper | OpenGripper | Begin | End
+Command = HandTarget | ArmTarget | JointTarget | CloseGripper | OpenGripper | Begin | End
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class Way:
+    """How an arm gets somewhere, or why it does not."""
+
+    joints: FloatArray
+    """Coordinates one after the other [rad], shape (k, n); as far as it gets if there is a problem."""
+    problem: str = ""
+    """``unreachable`` or ``in_collision``, if there is one."""
+    detail: str = ""
+    """How far it stays away, or what is in the way."""
+
+
+class Arm(Protocol):
+    """The arm that carries a hand, as a program may ask it. Places and turns are those of ``HandTarget``."""
+
+    @property
+    def joints(self) -> FloatArray:
+        """Commanded coordinates [rad], shape (n,)."""
+        ...
+
+    @property
+    def speeds(self) -> FloatArray:
+        """Greatest speeds of the joints [rad/s], shape (n,)."""
+        ...
+
+    @property
+    def accelerations(self) -> FloatArray:
+        """Greatest accelerations of the joints that are commanded [rad/s^2], shape (n,)."""
+        ...
+
+    def bearing(self, place: Triple) -> float:
+        """Return the yaw in which a place in the world lies from the shoulder [rad]."""
+        ...
+
+    def pad_shift(self, width: float) -> float:
+        """Return how far along x the pads' middle is from the hand's frame at a gap of ``width`` [m]."""
+        ...
+
+    def path(self, offsets: FloatArray, turns: FloatArray) -> Way:
+        """Return the joints along places and turns one after the other, each shape (k, 3), from where they are."""
+        ...
+
+    def way(self, offset: Triple, turn: Triple, ignoring: Collection[str]) -> Way:
+        """Return how the hand gets to a place by any way on which it touches nothing but what is ignored."""
+        ...
+
+
+class ActionFailedError(Exception):
+    """An action cannot be carried on: the rest of its sequence is not done. No error of the user's: an outcome."""
+
+    def __init__(self, outcome: str, detail: str) -> None:
+        """Say the outcome, such as ``unreachable``, and why."""
+        super().__init__(f"{outcome}: {detail}")
+        self.outcome = outcome
+        self.detail = detail
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -74,6 +159,8 @@ class HandSense:
 
     position: Triple
     """Place of the hand's frame in the world [m]."""
+    orientation: Quaternion = IDENTITY
+    """Its commanded orientation in the world."""
     offset: Triple
     """Its commanded displacement from the first position [m]."""
     turn: Triple
@@ -82,12 +169,42 @@ class HandSense:
     """Gap between the pads [m]."""
     grip: float
     """Commanded force of each pad [N], 0 when it does not close."""
-    load: Triple
-    """Force with which the base holds against what pulls or pushes the hand, world axes [N]."""
+    load: Callable[[], Triple]
+    """Force with which the servos hold against what pulls or pushes the hand, world axes [N]; computed when asked."""
     pad_force: float
     """The smaller of the two pads' normal forces [N]."""
     motion: int
     """1 opening, -1 closing, 0 idle."""
+    stiffness: float
+    """Force with which it resists for each metre that it is pushed away from its target [N/m]: the least."""
+    lag: float = 0.0
+    """How far the commanded joints are from putting the hand on its target [m]."""
+    bump: str = ""
+    """What the hand's arm or palm is pressed against, if anything."""
+    arm: Arm | None = None
+    """The arm that carries it; None for a hand that flies."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class RobotSense:
+    """What a robot knows of its joints that belong to none of its arms."""
+
+    joints: Mapping[str, float]
+    """Commanded coordinates by joint [rad or m]."""
+    speeds: Mapping[str, float]
+    """Greatest speeds by joint [rad/s or m/s]."""
+    accelerations: Mapping[str, float]
+    """Greatest accelerations by joint [rad/s^2 or m/s^2]."""
+    ranges: Mapping[str, tuple[float, float]]
+    """Least and greatest coordinate by joint."""
+    base: tuple[str, ...]
+    """Joints of the base: along x, along y, about z, seen from where it was at the start."""
+    head: tuple[str, ...]
+    """Pan and tilt."""
+    neck: Triple
+    """Where the head's axes meet in the world [m]."""
+    yaw: float
+    """Direction in which the trunk faces, from the world's x axis [rad]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -102,6 +219,8 @@ class Sense:
     """Position of a thing in the world [m], as a perfect camera would see it."""
     orientation: Callable[[str], Quaternion]
     """Unit quaternion (w, x, y, z) of a thing in the world, seen likewise."""
+    robots: Mapping[str, RobotSense] = field(default_factory=dict[str, RobotSense])
+    """Each robot's sense of its other joints."""
 
 
 Behaviour = Generator[tuple[Command, ...], Sense, Sense]

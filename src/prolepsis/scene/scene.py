@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from prolepsis.domain import Domain
 from prolepsis.errors import UnknownNameError
+from prolepsis.robots.robot import Robot
 from prolepsis.things import FloatArray, Thing, Triple
 
 
@@ -35,6 +37,8 @@ class Scene:
     """What is known of the individuals."""
     gravity: Triple = (0.0, 0.0, -9.81)
     """[m/s^2]"""
+    robots: Mapping[str, Robot] = field(default_factory=dict[str, Robot])
+    """What each robot is that has a model, by name; free hands are none of these."""
 
     def thing(self, name: str) -> Thing:
         """Return the thing called ``name``.

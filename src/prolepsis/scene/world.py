@@ -12,6 +12,7 @@ from prolepsis.engine import mujoco
 from prolepsis.errors import KnowledgeError
 from prolepsis.fields.solids import matter_of
 from prolepsis.robots.hand import HAND
+from prolepsis.scene.robot_world import add_robot, posture, robot_of_gripper, rule_contacts
 from prolepsis.scene.scene import Scene
 from prolepsis.things import Thing, Triple
 
@@ -50,9 +51,20 @@ class World:
     """The ``mujoco.MjModel`` at the start."""
     ranks: Mapping[float, int]
     """MuJoCo priority of each friction."""
+    posture: Mapping[str, float]
+    """Coordinate at the start of each joint that is not at 0 there, by name [rad or m]."""
+
+    def start(self, model: Any) -> Any:
+        """Return ``mujoco.MjData`` of a freshly compiled model of this world, all robots at home."""
+        data = mujoco.MjData(model)
+        for name, value in self.posture.items():
+            data.joint(name).qpos[0] = value
+        return data
 
     def is_body(self, thing: Thing) -> bool:
         """Return whether a thing is a rigid body of its own at the start."""
+        if thing.name.split("/", 1)[0] in self.scene.robots and thing.whole is not None:
+            return True
         return bool(thing.shape.geoms) and not thing.roles & HIDDEN_ROLES
 
     def xml(self) -> str:
@@ -80,11 +92,17 @@ def compile_world(scene: Scene) -> World:
     option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
     spec.worldbody.add_light(pos=[0, 0, 3], castshadow=True)
     ranks = _friction_ranks(scene)
+    start: dict[str, float] = {}
+    for name, robot in scene.robots.items():
+        add_robot(spec, robot, scene.thing(name))
+        rule_contacts(spec, scene, name, lambda geom, thing: _rule_contact(geom, thing, ranks, rolls=False))
+        start |= posture(robot, name, scene)
     for thing in scene.things:
-        if thing.shape.geoms and not (thing.roles & HIDDEN_ROLES):
+        on_robot = thing.name.split("/", 1)[0] in scene.robots
+        if thing.shape.geoms and not (thing.roles & HIDDEN_ROLES) and not on_robot:
             add_body(spec, thing, ranks)
     for thing in scene.things:
-        if "Gripper" in thing.roles:
+        if "Gripper" in thing.roles and robot_of_gripper(scene, thing) is None:
             HAND.add_joints(spec, thing.name, thing.orientation)
     for thing in scene.things:
         if "Breakable" in thing.roles:
@@ -93,8 +111,9 @@ def compile_world(scene: Scene) -> World:
         model = spec.compile()
     except ValueError as error:
         raise KnowledgeError(f"the world cannot be built: {' '.join(str(error).split())}") from None
-    _refuse_overlaps(scene, model)
-    return World(scene=scene, spec=spec, model=model, ranks=ranks)
+    world = World(scene=scene, spec=spec, model=model, ranks=ranks, posture=start)
+    _refuse_overlaps(scene, model, world.start(model))
+    return world
 
 
 def friction_of(thing: Thing) -> float:
@@ -167,8 +186,15 @@ def add_geom(
     made.quat = list(geom.orientation)
     if not thing.fixed:
         made.mass = mass
-    small = bool(thing.roles & HIDDEN_ROLES)
     rolls = "Breakable" in thing.roles or geom.type in ("sphere", "ellipsoid", "capsule", "cylinder")
+    _rule_contact(made, thing, ranks, rolls=rolls)
+    made.rgba = list(thing.shape.colour)
+    return made
+
+
+def _rule_contact(made: Any, thing: Thing, ranks: Mapping[float, int], *, rolls: bool) -> None:
+    """Give a geom of a thing its friction and softness."""
+    small = bool(thing.roles & HIDDEN_ROLES)
     friction = friction_of(thing)
     rolling = thing.quantities.get("rollingFriction", ROLLING_FRICTION)
     made.friction = [friction, SPINNING_FRICTION, rolling]
@@ -176,8 +202,6 @@ def add_geom(
     made.priority = ranks.get(friction, 0)
     made.solref = list(SMALL_SOLREF if small else SMOOTH_SOLREF)
     made.solimp = list(SMALL_SOLIMP if small else SMOOTH_SOLIMP)
-    made.rgba = list(thing.shape.colour)
-    return made
 
 
 def _add_pairs(spec: Any, scene: Scene, thing: Thing) -> None:
@@ -201,9 +225,8 @@ def _add_pairs(spec: Any, scene: Scene, thing: Thing) -> None:
                 pair.solref = list(SMALL_SOLREF)
 
 
-def _refuse_overlaps(scene: Scene, model: Any) -> None:
+def _refuse_overlaps(scene: Scene, model: Any, data: Any) -> None:
     """Refuse things that are inside each other at the start."""
-    data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     whole = {thing.name: thing.whole for thing in scene.things}
     fixed = {thing.name for thing in scene.things if thing.fixed}

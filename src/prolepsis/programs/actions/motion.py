@@ -8,7 +8,7 @@ import numpy as np
 
 from prolepsis.errors import PlanError
 from prolepsis.programs.action import HAND, OBJECT, Parameter, action
-from prolepsis.programs.commands import BaseTarget, Behaviour, OpenGripper, Sense
+from prolepsis.programs.commands import Behaviour, HandTarget, OpenGripper, Sense
 from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.robots.hand import rotate
 from prolepsis.scene.extent import extent_along, middle
@@ -60,7 +60,7 @@ def travel(hand: Thing, sense: Sense, displacement: Triple, acceleration: float,
     start, turn = sense.hands[hand.name].offset, sense.hands[hand.name].turn
     for step, velocity in line(displacement, acceleration, speed):
         offset = (start[0] + step[0], start[1] + step[1], start[2] + step[2])
-        sense = yield (BaseTarget(hand=hand.name, offset=offset, velocity=velocity, turn=turn),)
+        sense = yield (HandTarget(hand=hand.name, offset=offset, velocity=velocity, turn=turn),)
     return sense
 
 

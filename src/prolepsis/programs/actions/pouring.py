@@ -11,7 +11,7 @@ from prolepsis.errors import PlanError
 from prolepsis.programs.action import HAND, Parameter, action
 from prolepsis.programs.actions.motion import travel
 from prolepsis.programs.actions.turning import RATE
-from prolepsis.programs.commands import BaseTarget, Behaviour, Sense
+from prolepsis.programs.commands import Behaviour, HandTarget, Sense
 from prolepsis.programs.lip import Below, heights, lip_of
 from prolepsis.programs.outline import outline
 from prolepsis.programs.turning import TICK, course, matrix, rolled
@@ -103,7 +103,7 @@ def pour(
     spins = np.diff(angles, prepend=angles[:1]) / TICK
     for k, now in enumerate(angles):
         sense = yield (
-            BaseTarget(
+            HandTarget(
                 hand=hand.name,
                 offset=_triple(offsets[k]),
                 velocity=_triple(velocities[k]),
@@ -111,7 +111,7 @@ def pour(
                 spin=(0.0, 0.0, -side * float(spins[k])),
             ),
         )
-    still = BaseTarget(hand=hand.name, offset=_triple(offsets[-1]), turn=(yaw, pitch, -side * float(angles[-1])))
+    still = HandTarget(hand=hand.name, offset=_triple(offsets[-1]), turn=(yaw, pitch, -side * float(angles[-1])))
     sense = yield (still,)
     for _ in range(max(round(duration / TICK) - 1, 0)):
         sense = yield ()

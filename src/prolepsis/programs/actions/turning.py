@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from prolepsis.programs.action import HAND, Parameter, action
-from prolepsis.programs.commands import BaseTarget, Behaviour, Sense
+from prolepsis.programs.commands import Behaviour, HandTarget, Sense
 from prolepsis.programs.turning import TICK, course
 from prolepsis.scene.scene import Scene
 from prolepsis.things import Thing
@@ -26,5 +26,5 @@ def tilt(scene: Scene, sense: Sense, *, hand: Thing, angle: float, rate: float) 
     for now, spin in zip(angles, np.diff(angles, prepend=start) / TICK, strict=True):
         turn = (yaw, pitch, float(now))
         spins = (0.0, 0.0, float(spin))
-        sense = yield (BaseTarget(hand=hand.name, offset=state.offset, turn=turn, spin=spins),)
+        sense = yield (HandTarget(hand=hand.name, offset=state.offset, turn=turn, spin=spins),)
     return sense

@@ -5,7 +5,7 @@ from __future__ import annotations
 from prolepsis.errors import PlanError
 from prolepsis.programs.action import HAND, OBJECT, Parameter, action
 from prolepsis.programs.actions.motion import TICK, line, travel
-from prolepsis.programs.commands import BaseTarget, Behaviour, Sense
+from prolepsis.programs.commands import Behaviour, HandTarget, Sense
 from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.scene.scene import Scene
 from prolepsis.things import Thing, Triple
@@ -51,17 +51,18 @@ def wipe(
     """Stroke what the hand holds over the surface, by a displacement and back in turn, pressed on with a force."""
     del scene, object, surface
     start = sense.hands[hand.name]
+    resting = start.load()[2]
     still: list[tuple[Triple, Triple]] = [((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))] * round(SETTLING / TICK)
     here, depth = start.offset, 0.0
     x, y, z = displacement
     for stroke in range(round(strokes) + 1):
         way = (x, y, z) if stroke % 2 else (-x, -y, -z)
         for step, velocity in still if stroke == 0 else line(way, ACCELERATION, speed):
-            pressed = start.load[2] - sense.hands[hand.name].load[2]
+            pressed = resting - sense.hands[hand.name].load()[2]
             # The hand is a spring: commanded deeper, it presses more.
-            depth += (force - pressed) / ROBOT.position_gain * RATE * TICK
+            depth += (force - pressed) / start.stiffness * RATE * TICK
             offset = (here[0] + step[0], here[1] + step[1], here[2] + step[2] - depth)
-            sense = yield (BaseTarget(hand=hand.name, offset=offset, velocity=velocity, turn=start.turn),)
+            sense = yield (HandTarget(hand=hand.name, offset=offset, velocity=velocity, turn=start.turn),)
         if stroke:
             here = (here[0] + way[0], here[1] + way[1], here[2] + way[2])
     return (yield from travel(hand, sense, (0.0, 0.0, depth), ACCELERATION, LIFT_SPEED))

@@ -1,13 +1,14 @@
-"""Control of a hand at every tick: the base follows its target; the gripper closes guarded, then ramps its force."""
+"""Control of a parallel gripper at every tick: it closes guarded, then ramps its force."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from prolepsis.programs.commands import BaseTarget, CloseGripper, Command, HandSense, OpenGripper
-from prolepsis.robots.hand import Hand
+from prolepsis.programs.commands import CloseGripper, Command, OpenGripper
+from prolepsis.robots.gap import Gap
 from prolepsis.state import State
 
 TOUCH_FORCE = 0.6
@@ -30,47 +31,59 @@ WIDTH_TOLERANCE = 1.0e-3
 """Gap error at which an opening has ended [m]."""
 
 
-class HandControl:
-    """The controller of one hand in a running simulation."""
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class Drive:
+    """What of a model opens and closes a gripper."""
 
-    def __init__(self, state: State, name: str, hand: Hand, opening: float) -> None:
-        """Take over the hand called ``name``, whose first gap is ``opening`` [m]."""
-        self.name = name
-        self.hand = hand
+    motor: str
+    """Actuator on the tendon."""
+    tendon: str
+    """Joins both finger joints."""
+    pads: tuple[str, str]
+    """Bodies that carry the pads."""
+    gap: Gap
+    """Gap over the length of the tendon."""
+    max_force: float
+    """Greatest force of a pad [N]."""
+    stiffness: float
+    """Servo stiffness of the opening [N/m]."""
+    damping: float
+    """Servo damping of the opening [N s/m]."""
+
+
+class GripperControl:
+    """The controller of one gripper in a running simulation."""
+
+    def __init__(self, state: State, drive: Drive) -> None:
+        """Take over a gripper as it is."""
         self.motion = 0
         """1 opening, -1 closing, 0 idle."""
         self.command = 0.0
         """Commanded pad force [N]."""
         self.pad_force = 0.0
         """The smaller of the two pads' normal forces [N]."""
-        self._first_opening = opening
-        self._width = opening
-        self._base = np.zeros(6)
-        self._velocity = np.zeros(6)
-        self._lags = np.repeat([hand.velocity_gain / hand.position_gain, hand.turn_damping / hand.turn_gain], 3)
+        self._drive = drive
         self._goal: CloseGripper | OpenGripper | None = None
         self._elapsed = 0.0
         self._still = 0.0
         self._ramp: float | None = None
         self._ramp_from = 0.0
         self._motor_force = 0.0
-        self._gains = (-hand.opening_gain, -hand.opening_damping)
+        self._gains = (0.0, 0.0)
         self._version = -1
         self.bind(state)
+        self._width = self.opening
 
     def bind(self, state: State) -> None:
-        """Look the hand up in a model that is new."""
+        """Look the gripper up in a model that is new."""
         if self._version == state.version:
             return
         self._version = state.version
         model: Any = state.model
         self._model, self._data = model, state.data
-        joints = ("x", "y", "z", "yaw", "pitch", "roll")
-        self._servos = np.array([model.actuator(f"{self.name}/{joint}").id for joint in joints])
-        self._motor = int(model.actuator(f"{self.name}/gap").id)
-        self._gap = int(model.tendon(f"{self.name}/gap").id)
-        self._palm = int(model.body(f"{self.name}/palm").id)
-        self._fingers = [int(model.body(f"{self.name}/{side}_finger").id) for side in ("left", "right")]
+        self._motor = int(model.actuator(self._drive.motor).id)
+        self._tendon = int(model.tendon(self._drive.tendon).id)
+        self._pads = [int(model.body(pad).id) for pad in self._drive.pads]
         self._set_gains(*self._gains)
 
     def _set_gains(self, stiffness: float, damping: float) -> None:
@@ -79,16 +92,18 @@ class HandControl:
         self._model.actuator_biasprm[self._motor, :3] = (0.0, stiffness, damping)
 
     @property
+    def length(self) -> float:
+        """Length of the tendon: the sum of both finger joints [m or rad]."""
+        return float(self._data.ten_length[self._tendon])
+
+    @property
     def opening(self) -> float:
         """Gap between the pads [m]."""
-        return self._first_opening + float(self._data.ten_length[self._gap])
+        return self._drive.gap.opening(self.length)
 
     def accept(self, command: Command) -> None:
-        """Take a command for this hand."""
-        if isinstance(command, BaseTarget):
-            self._base[:] = (*command.offset, *command.turn)
-            self._velocity[:] = (*command.velocity, *command.spin)
-        elif isinstance(command, CloseGripper):
+        """Take a command for this gripper."""
+        if isinstance(command, CloseGripper):
             gripping = isinstance(self._goal, CloseGripper) and self._ramp is not None
             self._goal, self.motion, self.command = command, -1, command.force
             self._elapsed, self._still = 0.0, 0.0
@@ -101,12 +116,8 @@ class HandControl:
             self._width = self.opening
             self.motion = 1 if command.width > self._width else -1
 
-    def act(self, state: State, dt: float) -> None:
-        """Set the motors for the coming tick of ``dt`` [s]."""
-        self.bind(state)
-        # The base's target runs ahead by the lag that the servo's damping causes.
-        target = self._base + self._lags * self._velocity
-        self._data.ctrl[self._servos] = target
+    def act(self, dt: float) -> None:
+        """Set the motor for the coming tick of ``dt`` [s]."""
         if isinstance(self._goal, CloseGripper):
             self._close(self._goal, dt)
         else:
@@ -116,9 +127,10 @@ class HandControl:
         if self._ramp is None and not self._elapsed and self._width > goal.width:
             self._approach(goal.width, FAST_SPEED, dt)
             return
-        force = min(goal.force, self.hand.max_force)
+        force = min(goal.force, self._drive.max_force)
         touch = self._ramp_from
-        speed = abs(float(self._data.ten_velocity[self._gap])) / 2
+        lever = self._drive.gap.lever(self.length)
+        speed = abs(float(self._data.ten_velocity[self._tendon])) * lever / 2
         limit = SPEED_LIMIT
         if self._ramp is None:
             self._elapsed += dt
@@ -133,9 +145,9 @@ class HandControl:
             if self._ramp >= RAMP_TIME + SETTLING_TIME and speed < STALL_SPEED * SPEED_LIMIT:
                 self.motion = 0
         self._motor_force = now
-        # The motor acts on the gap, whose speed is twice a finger's.
-        self._set_gains(0.0, -now / (2 * limit))
-        self._data.ctrl[self._motor] = -now
+        # The motor pulls at the tendon, by whose lever its force becomes a pad's; the gap's speed is twice a pad's.
+        self._set_gains(0.0, -now * lever * lever / (2 * limit))
+        self._data.ctrl[self._motor] = -now * lever
 
     def _move(self, goal: OpenGripper | None, dt: float) -> None:
         if goal is None:
@@ -148,31 +160,18 @@ class HandControl:
     def _approach(self, width: float, speed: float, dt: float) -> None:
         """Move the pads towards a gap of ``width`` [m] at ``speed`` [m/s]."""
         self._width += float(np.clip(width - self._width, -speed * dt, speed * dt))
-        self._set_gains(-self.hand.opening_gain, -self.hand.opening_damping)
-        self._data.ctrl[self._motor] = self.hand.opening_gain * (self._width - self._first_opening)
+        length = self.length
+        lever = self._drive.gap.lever(length)
+        stiffness = self._drive.stiffness * lever * lever
+        self._set_gains(-stiffness, -self._drive.damping * lever * lever)
+        missing = self._width - self._drive.gap.opening(length)
+        self._data.ctrl[self._motor] = self._drive.stiffness * lever * missing + stiffness * length
 
     def measure(self, forces: list[tuple[int, int, int, float]]) -> None:
         """Read the pressure of the pads from the normal forces of the last substep, as ``State`` gives them."""
-        pads = dict.fromkeys(self._fingers, 0.0)
+        pads = dict.fromkeys(self._pads, 0.0)
         for _, first, second, force in forces:
             for body in (first, second):
                 if body in pads:
                     pads[body] += force
         self.pad_force = min(pads.values())
-
-    def sense(self) -> HandSense:
-        """Return what the hand knows of itself."""
-        x, y, z = (float(value) for value in self._data.xpos[self._palm])
-        a, b, c, yaw, pitch, roll = (float(value) for value in self._base)
-        # The slides of the base lie along the world's axes.
-        fx, fy, fz = (float(value) for value in self._data.actuator_force[self._servos[:3]])
-        return HandSense(
-            position=(x, y, z),
-            offset=(a, b, c),
-            turn=(yaw, pitch, roll),
-            opening=self.opening,
-            grip=self.command,
-            load=(fx, fy, fz),
-            pad_force=self.pad_force,
-            motion=self.motion,
-        )

@@ -1,0 +1,166 @@
+"""Ways of one arm: along given places, or to a place by any way on which nothing is touched."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from typing import Any
+
+import numpy as np
+
+from prolepsis.engine import mujoco
+from prolepsis.programs.commands import Way
+from prolepsis.robots.gap import Gap
+from prolepsis.robots.inverse import ArmKinematics, Found
+from prolepsis.robots.robot import Arm
+from prolepsis.robots.turned import conjugated, inverse, turned
+from prolepsis.state import State, compose_pose, relative_pose
+from prolepsis.things import FloatArray, Quaternion, Triple
+
+FINEST = 0.1
+"""Two postures that are looked at for collisions differ by at most this much in each joint [rad]."""
+INSIDE = 1.0e-3
+"""Depth at which two things are said to collide [m]: what rests on each other touches, but not so deeply."""
+VIA_HEIGHTS = (0.1, 0.2, 0.3)
+"""If the straight way is blocked, the arm goes through a place this far above the goal [m], or above where it is."""
+SEARCHES = 4
+"""Starts of the search for a posture: where the arm is, at home, and half-way between ranges."""
+
+
+class ArmWays:
+    """What a program may ask of one arm."""
+
+    def __init__(
+        self, kinematics: ArmKinematics, arm: Arm, gap: Gap, first: Triple, reference: Quaternion, mount: str, palm: str
+    ) -> None:
+        """Answer for an arm whose gripper was at ``first`` [m] at the start."""
+        self.joints: FloatArray = kinematics.home.copy()
+        """Commanded coordinates [rad], shape (n,)."""
+        self.speeds = kinematics.speeds
+        self.accelerations = np.array([joint.acceleration for joint in arm.joints])
+        self._kinematics = kinematics
+        self._gap = gap
+        self._first = first
+        self._reference = reference
+        self._mount_name, self._palm = mount, palm
+        self._state: State | None = None
+        self._scratch: Any = None
+        self._version = -1
+
+    def bind(self, state: State, places: FloatArray, bodies: Collection[int]) -> None:
+        """Look at a model that is new: ``places`` of the joints in qpos, and the arm's bodies with its gripper."""
+        self._state = state
+        self._places = places
+        self._bodies = frozenset(bodies)
+        self._mount = int(state.model.body(self._mount_name).id)
+        self._scratch = mujoco.MjData(state.model)
+
+    def bearing(self, place: Triple) -> float:
+        """Return the yaw from the first orientation in which a place in the world lies from the shoulder [rad]."""
+        assert self._state is not None
+        shoulder = compose_pose(self._mount_pose(), self._kinematics.shoulder)
+        way = [a - float(b) for a, b in zip(place, shoulder[:3], strict=True)]
+        x, y, _ = conjugated(inverse(self._reference), (way[0], way[1], way[2]))
+        return float(np.arctan2(y, x))
+
+    def pad_shift(self, width: float) -> float:
+        """Return how far along x the pads' middle is from the hand's frame at a gap of ``width`` [m]."""
+        return self._gap.shift(width)
+
+    def path(self, offsets: FloatArray, turns: FloatArray) -> Way:
+        """Return the joints along places and turns, each shape (k, 3)."""
+        joints: list[FloatArray] = []
+        now = self.joints
+        for offset, turn in zip(offsets, turns, strict=True):
+            found = self._kinematics.solve(self._seen(offset, turn), now)
+            if not found.is_there:
+                return Way(joints=np.array(joints), problem="unreachable", detail=_short_by(found))
+            now = found.joints
+            joints.append(now)
+        return Way(joints=np.array(joints))
+
+    def way(self, offset: Triple, turn: Triple, ignoring: Collection[str]) -> Way:
+        """Return how the hand gets to a place by any way on which it touches nothing but what is ignored."""
+        nearest: Found | None = None
+        blocked = ""
+        for found in self._postures(np.asarray(offset), np.asarray(turn)):
+            if not found.is_there:
+                nearest = found if nearest is None or found.distance < nearest.distance else nearest
+                continue
+            hit = self._touched(found.joints, ignoring)
+            if hit:
+                blocked = blocked or hit
+                continue
+            for postures in self._courses(found.joints, np.asarray(offset), np.asarray(turn)):
+                hit = self._touched_on(postures, ignoring)
+                if not hit:
+                    return Way(joints=np.array(postures))
+                blocked = hit
+        if blocked:
+            return Way(joints=np.zeros((0, len(self.joints))), problem="in_collision", detail=blocked)
+        assert nearest is not None
+        return Way(joints=np.zeros((0, len(self.joints))), problem="unreachable", detail=_short_by(nearest))
+
+    def _postures(self, offset: FloatArray, turn: FloatArray) -> Iterator[Found]:
+        """Yield solutions from several starts, near ones first."""
+        pose = self._seen(offset, turn)
+        low, high = np.maximum(self._kinematics.low, -np.pi), np.minimum(self._kinematics.high, np.pi)
+        middle = (low + high) / 2
+        for start in (self.joints, self._kinematics.home, middle, (middle + self._kinematics.home) / 2)[:SEARCHES]:
+            yield self._kinematics.solve(pose, start)
+
+    def _courses(self, goal: FloatArray, offset: FloatArray, turn: FloatArray) -> Iterator[list[FloatArray]]:
+        """Yield postures to go through: straight to the goal, or through a place above it."""
+        yield [self.joints, goal]
+        for height in VIA_HEIGHTS:
+            above = self._kinematics.solve(self._seen(offset + (0.0, 0.0, height), turn), goal)
+            if above.is_there:
+                yield [self.joints, above.joints, goal]
+
+    def _touched_on(self, postures: list[FloatArray], ignoring: Collection[str]) -> str:
+        for start, end in zip(postures[:-1], postures[1:], strict=True):
+            count = max(int(np.abs(end - start).max() / FINEST), 1)
+            for k in range(1, count + 1):
+                hit = self._touched(start + (end - start) * k / count, ignoring)
+                if hit:
+                    return hit
+        return ""
+
+    def _touched(self, joints: FloatArray, ignoring: Collection[str]) -> str:
+        """Return what the arm would be inside of with the given joints, or nothing."""
+        assert self._state is not None
+        model, data = self._state.model, self._scratch
+        data.qpos[:] = self._state.data.qpos
+        data.qpos[self._places] = joints
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        mujoco.mj_collision(model, data)
+        things = self._state.world.scene.things
+        for k in range(data.ncon):
+            if data.contact.dist[k] > -INSIDE:
+                continue
+            bodies = [int(model.geom_bodyid[g]) for g in data.contact.geom[k]]
+            if (bodies[0] in self._bodies) == (bodies[1] in self._bodies):
+                continue
+            other = bodies[1] if bodies[0] in self._bodies else bodies[0]
+            number = int(self._state.body_thing[other])
+            name = things[number].name if number >= 0 else model.body(other).name
+            if name.split("/", 1)[0] not in ignoring:
+                return name
+        return ""
+
+    def _mount_pose(self) -> FloatArray:
+        assert self._state is not None
+        data = self._state.data
+        return np.array([*data.xpos[self._mount], *data.xquat[self._mount]])
+
+    def _seen(self, offset: FloatArray, turn: FloatArray) -> FloatArray:
+        """Return a place and a turn of the hand as a pose seen from the mount, shape (7,)."""
+        yaw, pitch, roll = (float(a) for a in turn)
+        place = [f + float(o) for f, o in zip(self._first, offset, strict=True)]
+        return relative_pose(self._mount_pose(), np.array([*place, *turned(self._reference, (yaw, pitch, roll))]))
+
+
+def _short_by(found: Found) -> str:
+    if found.distance > found.angle:
+        return f"stays {found.distance * 1000:.0f} mm away"
+    return f"stays {np.degrees(found.angle):.0f} degrees away"

@@ -1,0 +1,78 @@
+"""All controllers of a running simulation: who takes which command, and what programs sense."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from prolepsis.programs.commands import Command, HandSense, JointTarget, RobotSense
+from prolepsis.robots.arm_control import ArmHand
+from prolepsis.robots.flying_control import FlyingHand
+from prolepsis.robots.hand import HAND
+from prolepsis.robots.trunk_control import Trunk
+from prolepsis.scene.robot_world import robot_of_gripper
+from prolepsis.state import State
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Controls:
+    """The controllers of hands and of robots' trunks."""
+
+    hands: Mapping[str, FlyingHand | ArmHand]
+    """By the gripper's name."""
+    trunks: Mapping[str, Trunk]
+    """By the robot's name."""
+
+    @classmethod
+    def of(cls, state: State) -> Controls:
+        """Return the controllers of all that can be controlled in a scene."""
+        scene = state.world.scene
+        hands: dict[str, FlyingHand | ArmHand] = {}
+        for thing in scene.things:
+            if "Gripper" not in thing.roles:
+                continue
+            robot = robot_of_gripper(scene, thing)
+            if robot is None:
+                hands[thing.name] = FlyingHand(state, thing, HAND)
+            else:
+                reference = scene.thing(robot).orientation
+                hands[thing.name] = ArmHand(state, thing, scene.robots[robot], robot, reference)
+        trunks = {name: Trunk(state, name, robot) for name, robot in scene.robots.items()}
+        return cls(hands=hands, trunks=trunks)
+
+    def accept(self, command: Command) -> None:
+        """Pass a command on to whom it is for."""
+        if isinstance(command, JointTarget):
+            self.trunks[command.robot].accept(command)
+            return
+        hand = getattr(command, "hand", None)
+        if hand is not None:
+            self.hands[hand].accept(command)
+
+    def act(self, state: State, dt: float) -> None:
+        """Set all motors for the coming tick of ``dt`` [s]."""
+        for trunk in self.trunks.values():
+            trunk.act(state)
+        for hand in self.hands.values():
+            hand.act(state, dt)
+
+    def bind(self, state: State) -> None:
+        """Look everything up in a model that is new."""
+        for each in self._all():
+            each.bind(state)
+
+    def measure(self, state: State) -> None:
+        """Read the forces of the last substep."""
+        if self.hands:
+            forces = state.normal_forces()
+            for hand in self.hands.values():
+                hand.measure(forces)
+
+    def sense(self) -> tuple[dict[str, HandSense], dict[str, RobotSense]]:
+        """Return what hands and robots know of themselves."""
+        hands = {name: hand.sense() for name, hand in self.hands.items()}
+        return hands, {name: trunk.sense() for name, trunk in self.trunks.items()}
+
+    def _all(self) -> Iterator[FlyingHand | ArmHand | Trunk]:
+        yield from self.trunks.values()
+        yield from self.hands.values()

@@ -1,0 +1,92 @@
+"""Control of a hand that flies freely: its base follows the target on six servos."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from prolepsis.programs.commands import HandSense, HandTarget
+from prolepsis.robots.gap import Gap
+from prolepsis.robots.gripper_control import Drive, GripperControl
+from prolepsis.robots.hand import Hand
+from prolepsis.robots.turned import turned
+from prolepsis.state import State
+from prolepsis.things import Thing, Triple
+
+
+class FlyingHand:
+    """The controller of one free hand in a running simulation."""
+
+    def __init__(self, state: State, thing: Thing, hand: Hand) -> None:
+        """Take over the hand that ``thing`` is."""
+        self.name = thing.name
+        self._first = thing.orientation
+        self._stiffness = hand.position_gain
+        self._lags = np.repeat([hand.velocity_gain / hand.position_gain, hand.turn_damping / hand.turn_gain], 3)
+        self._target = HandTarget(hand=self.name, offset=(0.0, 0.0, 0.0))
+        self._version = -1
+        drive = Drive(
+            motor=f"{self.name}/gap",
+            tendon=f"{self.name}/gap",
+            pads=(f"{self.name}/left_finger", f"{self.name}/right_finger"),
+            gap=Gap.sliding(thing.quantities["opening"], hand.max_opening),
+            max_force=hand.max_force,
+            stiffness=hand.opening_gain,
+            damping=hand.opening_damping,
+        )
+        self.gripper = GripperControl(state, drive)
+        self.bind(state)
+
+    def bind(self, state: State) -> None:
+        """Look the hand up in a model that is new."""
+        if self._version == state.version:
+            return
+        self._version = state.version
+        self.gripper.bind(state)
+        model: Any = state.model
+        self._data = state.data
+        joints = ("x", "y", "z", "yaw", "pitch", "roll")
+        self._servos = np.array([model.actuator(f"{self.name}/{joint}").id for joint in joints])
+        self._palm = int(model.body(f"{self.name}/palm").id)
+
+    def accept(self, command: object) -> None:
+        """Take a command for this hand."""
+        if isinstance(command, HandTarget):
+            self._target = command
+        else:
+            self.gripper.accept(command)  # type: ignore[arg-type]
+
+    def act(self, state: State, dt: float) -> None:
+        """Set the motors for the coming tick of ``dt`` [s]."""
+        self.bind(state)
+        target = self._target
+        # The base's target runs ahead by the lag that the servo's damping causes.
+        where = np.array([*target.offset, *target.turn])
+        self._data.ctrl[self._servos] = where + self._lags * np.array([*target.velocity, *target.spin])
+        self.gripper.act(dt)
+
+    def measure(self, forces: list[tuple[int, int, int, float]]) -> None:
+        """Read the pressure of the pads from the normal forces of the last substep, as ``State`` gives them."""
+        self.gripper.measure(forces)
+
+    def sense(self) -> HandSense:
+        """Return what the hand knows of itself."""
+        x, y, z = (float(value) for value in self._data.xpos[self._palm])
+        return HandSense(
+            position=(x, y, z),
+            orientation=turned(self._first, self._target.turn),
+            offset=self._target.offset,
+            turn=self._target.turn,
+            opening=self.gripper.opening,
+            grip=self.gripper.command,
+            load=self._load,
+            pad_force=self.gripper.pad_force,
+            motion=self.gripper.motion,
+            stiffness=self._stiffness,
+        )
+
+    def _load(self) -> Triple:
+        # The slides of the base lie along the world's axes.
+        x, y, z = (float(value) for value in self._data.actuator_force[self._servos[:3]])
+        return (x, y, z)

@@ -1,0 +1,98 @@
+"""Robots in a world: the model is attached under the robot's name, its joints get servos, its geoms contact rules."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from prolepsis.engine import mujoco
+from prolepsis.robots.model import robot_model
+from prolepsis.robots.robot import Arm, Joint, Robot
+from prolepsis.scene.scene import Scene
+from prolepsis.shapes.from_model import touches
+from prolepsis.things import Thing
+
+COUPLING_SOLREF = (0.004, 1.0)
+COUPLING_SOLIMP = (0.99, 0.9999, 0.001, 0.5, 2.0)
+"""Of fingers that the model does not couple: as stiff as a linkage, or a tenth of the pad force is lost."""
+
+
+def add_robot(spec: Any, robot: Robot, thing: Thing) -> None:
+    """Attach a robot to a world at the place of ``thing``, with servos for its joints and motors for its grippers."""
+    read = robot_model(robot)
+    child = read.spec()
+    for part in (*child.actuators, *child.keys, *child.sensors):
+        child.delete(part)
+    frame = spec.worldbody.add_frame(pos=list(thing.position), quat=list(thing.orientation))
+    spec.attach(child, prefix=f"{thing.name}/", frame=frame)
+    for joint in robot.joints:
+        _add_servo(spec, f"{thing.name}/{joint.name}", joint)
+    for arm in robot.arms:
+        _add_gripper(spec, thing.name, arm)
+    _name_geoms(spec, read.model, thing.name)
+
+
+def rule_contacts(spec: Any, scene: Scene, robot: str, rule: Callable[[Any, Thing], None]) -> None:
+    """Give the geoms of a robot and its grippers their contact rules by ``rule(geom, thing)``."""
+    for thing in scene.things:
+        if thing.name.startswith(f"{robot}/") and thing.whole is not None:
+            for k in range(len(thing.shape.geoms)):
+                rule(spec.geom(f"{thing.name}/{k}"), thing)
+
+
+def posture(robot: Robot, name: str, scene: Scene) -> dict[str, float]:
+    """Return the coordinates of a robot's joints at the start, by their names in the world."""
+    openings = {arm.name: scene.thing(arm.name).quantities["opening"] for arm in robot.arms}
+    _, coordinates = robot_model(robot).at_home(openings)
+    return {f"{name}/{joint}": value for joint, value in coordinates.items()}
+
+
+def robot_of_gripper(scene: Scene, gripper: Thing) -> str | None:
+    """Return the robot that a gripper is on, or None if it flies."""
+    links = scene.parts(gripper.name)
+    owner = links[0].name.split("/", 1)[0] if links else gripper.name
+    return owner if owner in scene.robots else None
+
+
+def _add_servo(spec: Any, name: str, joint: Joint) -> None:
+    servo = spec.add_actuator(name=name, target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+    servo.gaintype = mujoco.mjtGain.mjGAIN_FIXED
+    servo.biastype = mujoco.mjtBias.mjBIAS_AFFINE
+    servo.gainprm[0] = joint.stiffness
+    servo.biasprm[1] = -joint.stiffness
+    servo.biasprm[2] = -joint.damping
+
+
+def _add_gripper(spec: Any, robot: str, arm: Arm) -> None:
+    gripper = arm.gripper
+    fingers = [f"{robot}/{finger}" for finger in gripper.fingers]
+    palm = spec.body(f"{robot}/{gripper.palm}")
+    palm.add_site(name=f"{arm.name}/tool", pos=list(gripper.tool), quat=list(gripper.tool_orientation))
+    tendon = spec.add_tendon(name=f"{arm.name}/gap")
+    for finger in fingers:
+        tendon.wrap_joint(finger, 1.0)
+    if not any({each.name1, each.name2} == {*fingers} for each in spec.equalities):
+        spec.add_equality(
+            name=f"{arm.name}/coupling",
+            type=mujoco.mjtEq.mjEQ_JOINT,
+            name1=fingers[0],
+            name2=fingers[1],
+            objtype=mujoco.mjtObj.mjOBJ_JOINT,
+            data=[0, 1, *[0] * 10],
+            solref=list(COUPLING_SOLREF),
+            solimp=list(COUPLING_SOLIMP),
+        )
+    motor = spec.add_actuator(name=f"{arm.name}/gap", target=f"{arm.name}/gap", trntype=mujoco.mjtTrn.mjTRN_TENDON)
+    motor.biastype = mujoco.mjtBias.mjBIAS_AFFINE
+
+
+def _name_geoms(spec: Any, model: Any, robot: str) -> None:
+    """Name the geoms that can touch something after their thing and number, as all geoms of a world are."""
+    for body in range(1, model.nbody):
+        thing = f"{robot}/{model.body(body).name}"
+        geoms = [g for g in range(model.ngeom) if int(model.geom_bodyid[g]) == body]
+        count = 0
+        for made, geom in zip(spec.body(thing).geoms, geoms, strict=True):
+            if touches(model, geom):
+                made.name = f"{thing}/{count}"
+                count += 1

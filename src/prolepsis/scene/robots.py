@@ -1,0 +1,123 @@
+"""Robots of a scene: each body of the model is a part of the robot or of one of its grippers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from prolepsis.errors import KnowledgeError, ScenarioError, UnknownNameError
+from prolepsis.knowledge.knowledge_base import KnowledgeBase
+from prolepsis.robots.hand import rotate
+from prolepsis.robots.model import robot_model
+from prolepsis.robots.pr2 import PR2
+from prolepsis.robots.robot import Robot
+from prolepsis.robots.turned import product
+from prolepsis.shapes.from_model import shape_of
+from prolepsis.things import Quaternion, Thing, Triple
+
+KNOWN = {PR2.kind: PR2}
+"""Robots that are here, by class."""
+
+
+def robot_of(kb: KnowledgeBase, name: str, given: Robot | None) -> Robot:
+    """Return what the individual ``name`` is: a known robot by its class, or the one that the scenario gives.
+
+    Raises:
+        ScenarioError: If neither is there.
+    """
+    for kind, robot in KNOWN.items():
+        if kb.is_a(name, kind):
+            return robot
+    if given is None:
+        raise ScenarioError(f"{name} is a Robot without a model; give the scenario a [robot] table with its file")
+    return given
+
+
+def robot_things(
+    kb: KnowledgeBase, robot: Robot, whole: Thing, gripper_thing: Callable[[str], Thing]
+) -> tuple[Thing, ...]:
+    """Return a robot with its links, then each of its grippers with its own.
+
+    Args:
+        kb: The situation.
+        robot: What it is.
+        whole: The robot as a thing at its place, without a body.
+        gripper_thing: Makes a gripper of the situation a thing without a body.
+
+    Raises:
+        UnknownNameError: If a gripper is stated that the robot has not.
+        KnowledgeError: If a gripper is missing or cannot be as wide open as stated.
+    """
+    read = robot_model(robot)
+    known = [arm.name for arm in robot.arms]
+    stated = [part for part in kb.parts(whole.name) if kb.is_a(part, "Gripper")]
+    for name in stated:
+        if name not in known:
+            raise UnknownNameError.of("gripper", name, known, f"{whole.name} ({whole.kind})")
+    for name in known:
+        if name not in stated:
+            raise KnowledgeError(f"{whole.name} ({whole.kind}) has no part {name}; state :{name} a :Gripper")
+    openings = {name: kb.quantity(name, "opening") for name in known}
+    for name, opening in openings.items():
+        if opening > read.gaps[name].greatest:
+            raise KnowledgeError(f"{name}: opening {opening:g} m, allowed up to {read.gaps[name].greatest:.3g} m")
+    data, _ = read.at_home(openings)
+    robot_thing = replace(whole, roles=whole.roles | {"Robot"}, mass=float(read.model.body_subtreemass[0]))
+    made: dict[str | None, list[Thing]] = {None: [robot_thing]}
+    for arm in robot.arms:
+        palm = read.model.body(arm.gripper.palm).id
+        turn, place = _quaternion(data.xquat[palm]), _triple(data.xpos[palm])
+        place = _sum(place, _triple(rotate(turn, arm.gripper.tool)))
+        position, orientation = _placed(whole, place, product(turn, arm.gripper.tool_orientation))
+        found = gripper_thing(arm.name)
+        limits = {
+            "opening": openings[arm.name],
+            "maxOpening": read.gaps[arm.name].greatest,
+            "maxForce": arm.gripper.max_force,
+            "maxSpeed": arm.max_speed,
+            "maxAcceleration": arm.max_acceleration,
+        }
+        gripper = replace(
+            found,
+            position=position,
+            orientation=orientation,
+            mass=float(read.model.body_subtreemass[palm]),
+            quantities={**found.quantities, **limits},
+        )
+        made[arm.name] = [gripper]
+    for body in range(1, read.model.nbody):
+        name = read.model.body(body).name
+        owner = made[read.owner[name]]
+        quantities = {k: v for k, v in owner[0].quantities.items() if k in ("friction", "frictionWhenWet")}
+        position, orientation = _placed(whole, _triple(data.xpos[body]), _quaternion(data.xquat[body]))
+        owner.append(
+            Thing(
+                name=f"{whole.name}/{name}",
+                kind="Part",
+                shape=shape_of(read.model, body),
+                position=position,
+                orientation=orientation,
+                mass=float(read.model.body_mass[body]),
+                whole=owner[0].name,
+                quantities=quantities,
+            )
+        )
+    return tuple(thing for things in made.values() for thing in things)
+
+
+def _placed(whole: Thing, position: Triple, orientation: Quaternion) -> tuple[Triple, Quaternion]:
+    """Return a pose seen from the robot's root as a pose in the world."""
+    return _sum(whole.position, _triple(rotate(whole.orientation, position))), product(whole.orientation, orientation)
+
+
+def _sum(first: Triple, second: Triple) -> Triple:
+    return (first[0] + second[0], first[1] + second[1], first[2] + second[2])
+
+
+def _triple(values: Any) -> Triple:
+    return float(values[0]), float(values[1]), float(values[2])
+
+
+def _quaternion(values: Any) -> Quaternion:
+    return float(values[0]), float(values[1]), float(values[2]), float(values[3])
