@@ -100,7 +100,7 @@ def test_four_levels_are_too_low_three_hold_and_five_crush_the_default_egg(base:
 def test_an_egg_shell_is_described_with_its_defaults_sources_and_superclasses(base: KnowledgeBase) -> None:
     lines = base.describe("EggShell")
     assert lines[0] == "EggShell: class. The rigid but fragile shell of an egg."
-    assert "  is a: Enclosure, PhysicalObject, Solid" in lines
+    assert "  is a: Enclosure, PhysicalObject, Shell, Solid" in lines
     assert "  must be part of: Egg" in lines
     assert any(line.startswith("  breakingForce = 36 +- 7 N (M, from memory, unverified: slow") for line in lines)
     assert any(line.startswith("  temperature = 293.15 K (D, decided here: room") for line in lines)

@@ -23,9 +23,9 @@ def test_the_example_of_the_page_loads_and_uses_its_class_defaults(tmp_path: Pat
     path = tmp_path / "page.ttl"
     path.write_text(match.group(1))
     base = KnowledgeBase.load(path)
-    assert base.kind("egg1") == "QuailEgg" and base.is_a("egg1", "LiquidContainer")
-    assert base.quantity("egg1", "length") == 0.0349
-    assert sum(base.quantity(part, "mass") for part in base.parts("egg1")) == pytest.approx(0.0127)
+    assert base.kind("egg1") == "BantamEgg" and base.is_a("egg1", "LiquidContainer")
+    assert base.quantity("egg1", "length") == 0.045
+    assert sum(base.quantity(part, "mass") for part in base.parts("egg1")) == pytest.approx(0.030)
 
 
 def test_the_liquids_of_the_page_are_filled_in_where_it_says(tmp_path: Path) -> None:

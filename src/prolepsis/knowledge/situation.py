@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
@@ -201,10 +202,11 @@ def _with_default_parts(situation: Situation, vocabulary: Vocabulary) -> Situati
     statements = list(situation.statements)
     for whole, told in situation.classes.items():
         stated = {c for part in situation.parts.get(whole, ()) for c in vocabulary.told_classes(classes[part])}
-        for name in vocabulary.told_classes(told):
-            for part in vocabulary.classes[name].parts:
-                if part.unless in stated:
-                    continue
+        # The most specific class comes first: a quail's egg has a quail's shell, so no hen's one by default.
+        for name in sorted(vocabulary.told_classes(told), key=lambda each: -len(vocabulary.told_classes((each,)))):
+            missing = [part for part in vocabulary.classes[name].parts if part.unless not in stated]
+            stated |= {c for part in missing for c in vocabulary.told_classes((part.kind,))}
+            for part in missing:
                 part_name = part_name_of(whole, part.kind)
                 if part_name in classes:
                     raise KnowledgeError(
@@ -229,10 +231,10 @@ def _with_default_parts(situation: Situation, vocabulary: Vocabulary) -> Situati
 
 def part_name_of(whole: str, kind: str) -> str:
     """Return the name of a default part: ``eggshell1`` of ``egg1``, ``breakfast/shell`` of ``breakfast``."""
-    short = kind.removeprefix("Egg").lower()
+    short = re.findall("[A-Z]?[^A-Z]+", kind)[-1].lower()
     number = whole.removeprefix("egg")
     if whole.startswith("egg") and (number.isdigit() or not number):
-        return f"eggshell{number}" if kind == "EggShell" else f"{short}{number}"
+        return f"eggshell{number}" if short == "shell" else f"{short}{number}"
     return f"{whole}/{short}"
 
 

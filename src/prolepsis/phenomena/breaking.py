@@ -16,13 +16,15 @@ from prolepsis.phenomena.bond_graph import BondGraph
 from prolepsis.phenomena.phenomenon import Detachment, Draw, Phenomenon
 from prolepsis.phenomena.shell_calibration import calibrated_graph
 from prolepsis.phenomena.shell_contact import ShellContact
-from prolepsis.scene.egg_things import PIECE_COUNT
 from prolepsis.scene.world import MAX_STEP
 from prolepsis.state import State
 from prolepsis.things import FloatArray, Thing
 
 CONTACT_STEP = 2.5e-4
-"""Substep [s] while something is near an intact shell: an impact lasts some 1.5 ms, so six substeps."""
+"""Substep [s] while something is near an intact shell: an egg's impact lasts some 1.5 ms, so six substeps."""
+CONTACT_PHASE = 0.61
+"""Greatest phase by which a shell that bounces on its contact goes on in a substep [rad]: that of an egg at its pole.
+What is lighter and stiffer takes shorter ones."""
 BETWEEN_SAMPLES = 0.9
 """Margin of the screen for contacts between its sampled points [1]."""
 LIGHT = 0.2
@@ -86,13 +88,14 @@ class Breaking(Phenomenon):
         self.thing = thing
         self.shell_name = shell.name
         self.index = names[thing.name]
-        self.pieces = [names[f"{shell.name}/piece{k}"] for k in range(PIECE_COUNT)]
+        self.pieces = [names[part.name] for part in state.world.scene.parts(shell.name)]
+        self.kernels = [names[part.name] for part in state.world.scene.parts(thing.name) if "Piece" in part.roles]
         a, b, c = thing.shape.geoms[0].size
         quantities = shell.quantities
         self.weakening = quantities["crackTipWeakening"]
         graph = calibrated_graph(
             (a, b, c),
-            PIECE_COUNT,
+            len(self.pieces),
             thickness=quantities["shellThickness"],
             youngs_modulus=quantities["youngsModulus"],
             poisson_ratio=quantities["poissonRatio"],
@@ -116,6 +119,8 @@ class Breaking(Phenomenon):
         self._watched: dict[int, Fragment] = {}
         self._contact = ShellContact(thing, quantities["plateStiffness"], quantities["poleStiffnessRatio"])
         self._contact.update(state, None)
+        stiffest = 2 * quantities["plateStiffness"] * math.sqrt(quantities["poleStiffnessRatio"])
+        self._contact_step = min(CONTACT_STEP, CONTACT_PHASE * math.sqrt(thing.mass / stiffest))
 
     def substep(self, state: State) -> float:
         """Return the substep that breaking needs now [s], and bring the contact's stiffness up to date."""
@@ -127,7 +132,7 @@ class Breaking(Phenomenon):
         near = self._near(state)
         pressed = near and 0 <= self._pressed_most < state.data.ncon
         self._contact.update(state, state.data.contact.pos[self._pressed_most] if pressed else None)
-        return CONTACT_STEP if near else MAX_STEP
+        return self._contact_step if near else MAX_STEP
 
     def is_steady(self) -> bool:
         """Return whether no bond can come to break within a tick, so that its substeps need no look one by one.
@@ -247,7 +252,9 @@ class Breaking(Phenomenon):
                 new.append(fragment)
                 continue
             groups = [[self.pieces[int(k)] for k in part.nodes] for part in parts]
-            state.split(fragment.body, groups)
+            # What is firm inside goes on as a body of its own.
+            firm = [[kernel] for kernel in self.kernels] if self.intact else []
+            state.split(fragment.body, groups + firm)
             self.intact = False
             for part, group in zip(parts, groups, strict=True):
                 lead = state.world.scene.things[group[0]].name

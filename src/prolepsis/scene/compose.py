@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -13,10 +14,10 @@ from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.robots.hand import HAND
 from prolepsis.scenario_file import DEFAULT_PARTICLES
 from prolepsis.scene.egg_inside import egg_pools
-from prolepsis.scene.egg_things import egg_things
 from prolepsis.scene.liquids import is_liquid, liquid_thing, place_of, refuse_idle
 from prolepsis.scene.placing import resting_height
 from prolepsis.scene.scene import Pool, Scene
+from prolepsis.scene.shelled import shelled_things
 from prolepsis.scene.world import HIDDEN_ROLES
 from prolepsis.shapes import SHAPES
 from prolepsis.shapes.holes import refuse_holes
@@ -40,6 +41,10 @@ ROLES = (
 """Classes that physics or recognition goes by."""
 COLOURS = {
     "Egg": (0.93, 0.84, 0.73, 1.0),
+    "QuailEgg": (0.80, 0.72, 0.60, 1.0),
+    "HardBoiledEgg": (0.93, 0.84, 0.73, 1.0),
+    "Coconut": (0.42, 0.29, 0.18, 1.0),
+    "MandM": (0.80, 0.20, 0.16, 1.0),
     "Table": (0.60, 0.44, 0.30, 1.0),
     "Bowl": (0.62, 0.78, 0.85, 0.55),
     "Cup": (0.75, 0.42, 0.32, 1.0),
@@ -52,11 +57,7 @@ FEATURES = ("lid",)
 """What a shape may have or not."""
 ATTRIBUTES = {"wet": "WetThing", "dirty": "DirtyThing", "broken": "BrokenThing"}
 """Attributes that controllers may change, and the class of what has them at the start."""
-SLENDEREST = 0.5
-"""Least breadth over length of an egg that is cut into pieces [1]."""
 GRIPPER_SHAPE, MESH_SHAPE = "parallelGripper", "mesh"
-STUFFS = {"EggYolk": (0.98, 0.72, 0.08, 1.0), "EggWhite": (0.93, 0.93, 0.82, 0.75)}
-"""What flows out of an egg, from the middle outwards, and its colour, for pictures only."""
 
 
 def compose(kb: KnowledgeBase, *, particles: int = DEFAULT_PARTICLES) -> Scene:
@@ -92,9 +93,9 @@ def compose(kb: KnowledgeBase, *, particles: int = DEFAULT_PARTICLES) -> Scene:
         solids = {name: tuple(t for t in made[name] if not t.roles & HIDDEN_ROLES) for name in wholes}
         filled, pools = fill(flowing, places, solids, particles)
         made |= {each.name: (each,) for each in filled}
-    spacing = next((pool.spacing for pool in pools), None)
     for name in wholes:
-        if kb.is_a(name, "Egg"):
+        if kb.is_a(name, "Shelled"):
+            spacing = next((pool.spacing for pool in pools), None)
             made[name], inside = _with_inside(made[name], spacing)
             pools += inside
     return Scene(things=tuple(thing for name in names for thing in made[name]), domain=kb.domain(), pools=pools)
@@ -148,8 +149,8 @@ def _things_of(
         slippery = thing.quantities.get("frictionWhenWet")
         known = {"frictionWhenWet": slippery} if slippery is not None else {}
         return (whole, *(replace(part, quantities={**part.quantities, **known}) for part in hand[1:]))
-    if kb.is_a(name, "Egg"):
-        return _egg(kb, thing)
+    if kb.is_a(name, "Shelled"):
+        return shelled_things(kb, thing, partial(_roles, kb))
     return (thing,)
 
 
@@ -236,43 +237,3 @@ def _put_on(thing: Thing, name: str, under: tuple[Thing, ...]) -> Thing:
     placed = replace(thing, position=(x, y, 0.0))
     height = resting_height(placed, solid)
     return replace(placed, position=(x, y, height))
-
-
-def _egg(kb: KnowledgeBase, egg: Thing) -> tuple[Thing, ...]:
-    shells = [part for part in kb.parts(egg.name) if kb.is_a(part, "EggShell")]
-    if len(shells) != 1:
-        raise KnowledgeError(f"{egg.name} has {len(shells)} shells, needed: 1")
-    longest, _, breadth = egg.shape.geoms[0].size
-    if not SLENDEREST <= breadth / longest <= 1:
-        size = f"{2 * longest:g} m long and {2 * breadth:g} m broad"
-        raise KnowledgeError(f"{egg.name} is {size}; allowed: a breadth of {SLENDEREST:g} to 1 times the length")
-    if "BrokenThing" in kb.classes(egg.name):
-        raise KnowledgeError(f"{egg.name} is broken at the start; only whole eggs can be simulated")
-    parts = [_part(kb, part, egg) for part in kb.parts(egg.name)]
-    shell = next(part for part in parts if part.name == shells[0])
-    stuffs = tuple(
-        replace(part, shape=Shape(colour=colour))
-        for cls, colour in STUFFS.items()
-        for part in parts
-        if kb.is_a(part.name, cls) and part.name != shell.name
-    )
-    # What touches the world is the shell, so the whole is as slippery as that.
-    whole = replace(egg, quantities={**egg.quantities, "friction": shell.quantities["friction"]})
-    return egg_things(whole, shell, stuffs)
-
-
-def _part(kb: KnowledgeBase, name: str, whole: Thing) -> Thing:
-    quantities = {p: float(k.value) for p, k in kb.quantities(name).items() if isinstance(k.value, float)}
-    deviations = {
-        f"{p}Deviation": float(k.deviation) for p, k in kb.quantities(name).items() if getattr(k, "deviation", None)
-    }
-    return Thing(
-        name=name,
-        kind=kb.kind(name),
-        position=whole.position,
-        orientation=whole.orientation,
-        mass=quantities.get("mass", 0.0),
-        whole=whole.name,
-        roles=_roles(kb, name) - {"Breakable", "Container"},
-        quantities={**quantities, **deviations},
-    )
