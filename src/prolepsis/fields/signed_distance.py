@@ -23,7 +23,6 @@ from prolepsis.fields.faces import (
     faces_of,
 )
 from prolepsis.fields.grid import grid_of
-from prolepsis.fields.hull import hull_planes
 from prolepsis.fields.solids import Solid, matrix, solid_of
 from prolepsis.kernels import njit
 from prolepsis.things import FloatArray, IntArray, Shape
@@ -90,7 +89,7 @@ _Row = tuple[int, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]
 
 
 def _convex(solid: Solid) -> _Row:
-    numbers = np.zeros(0) if solid.type != "mesh" else hull_planes(solid.corners)
+    numbers = np.zeros(0) if solid.type != "mesh" else solid.planes
     frame = np.concatenate([solid.position, solid.rotation.ravel()])
     corners = solid.corners
     bounds = np.concatenate([corners.min(axis=0), corners.max(axis=0)])

@@ -63,7 +63,10 @@ def depths_within(observation: Observation, hollow: RigidShape, shape: RigidShap
     looked = looked[both[looked]]
     if not len(looked):
         return None
-    points, weights = samples(shape.solids)
+    known = observation.of(sampled)
+    if id(shape) not in known:
+        known[id(shape)] = samples(shape.solids)
+    points, weights = known[id(shape)]
     middle = weights @ points
     near = _between_bounds(observation, hollow, shape, middle, looked)
     at_rest = _at_rest(observation, hollow.body, shape, middle, both) if near.any() else runs(near)
@@ -89,6 +92,11 @@ def depths_within(observation: Observation, hollow: RigidShape, shape: RigidShap
         stretches=runs(seen & both),
         at_rest=at_rest,
     )
+
+
+def sampled(observation: Observation) -> dict[int, tuple[FloatArray, FloatArray]]:
+    """Return points well inside shapes and their weights, by identity, filled when first needed."""
+    return {}
 
 
 def cavities(observation: Observation) -> dict[int, Cavity]:

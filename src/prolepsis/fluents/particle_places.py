@@ -111,6 +111,10 @@ def places(observation: Observation) -> Places | None:
     np.add.at(mass, particles.stuff, particles.mass)
     share = particles.mass / np.maximum(mass[particles.stuff], 1e-300)
     loose = particles.holder == FREE
+    if not loose.any():
+        # What stays within an egg or a sponge touches nothing: no compiled loop is needed.
+        manner, on = np.zeros(loose.shape, dtype=np.uint8), np.full(loose.shape, -1, dtype=np.int16)
+        return Places(particles=particles, share=share, inside=(), manner=manner, on=on)
     inside = _inside(observation, particles, loose)
     manner, on = _touching(observation, particles, loose, inside)
     return Places(particles=particles, share=share, inside=inside, manner=manner, on=on)

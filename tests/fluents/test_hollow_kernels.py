@@ -1,0 +1,97 @@
+"""The compiled loops behind pools and hollows, each against a plain way of finding the same."""
+
+from __future__ import annotations
+
+import heapq
+import itertools
+
+import numpy as np
+import pytest
+
+from prolepsis.fields.signed_distance import Field, solids_as_arrays, union_of
+from prolepsis.fluents.kernels.distances import node_distances
+from prolepsis.fluents.kernels.pools import standing
+from prolepsis.fluents.kernels.spreading import spread
+from prolepsis.things import BoolArray, FloatArray, Geom, Hole, Shape
+
+STEPS = [step for step in itertools.product((-1, 0, 1), repeat=3) if sum(map(abs, step)) == 1]
+UPS = [(0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (0.6, 0.0, -0.8), (-0.48, 0.6, 0.64)]
+
+
+def passes(free: BoolArray, height: FloatArray) -> FloatArray:
+    """Return the least possible greatest height on a way to the edge, by a priority flood, a node at a time."""
+    level = np.full(free.shape, np.inf)
+    queue: list[tuple[float, tuple[int, ...]]] = []
+    for node in np.ndindex(*free.shape):
+        if free[node] and any(i in (0, n - 1) for i, n in zip(node, free.shape, strict=True)):
+            level[node] = height[node]
+            heapq.heappush(queue, (float(height[node]), node))
+    while queue:
+        here, node = heapq.heappop(queue)
+        for step in STEPS:
+            near = tuple(a + b for a, b in zip(node, step, strict=True))
+            if all(0 <= i < n for i, n in zip(near, free.shape, strict=True)) and free[near]:
+                over = max(here, float(height[near]))
+                if over < level[near]:
+                    level[near] = over
+                    heapq.heappush(queue, (over, near))
+    return level
+
+
+@pytest.mark.parametrize("up", UPS)
+@pytest.mark.parametrize("density", [0.1, 0.4, 0.7])
+def test_a_liquid_stands_as_high_as_the_lowest_way_out(up: tuple[float, float, float], density: float) -> None:
+    random = np.random.default_rng(3)
+    for _ in range(5):
+        shape = tuple(random.integers(3, 12, 3).tolist())
+        free = random.random(shape) >= density
+        across, base = 0.01 * np.array(up), 0.3
+        i, j, k = np.indices(shape)
+        height = base + i * across[0] + j * across[1] + k * across[2]
+        level = passes(free, height)
+        expected = np.where(free & (level > height), level - 0.004, -np.inf)
+        assert np.array_equal(standing(free, base, across, 0.0, 0.004), expected)
+
+
+def test_a_shallow_pool_is_an_artefact() -> None:
+    free = np.ones((7, 7, 7), dtype=np.bool_)
+    free[2:5, 2:5, 2:4] = False
+    free[3, 3, 3] = True
+    up = np.array([0.0, 0.0, 0.01])
+    assert standing(free, 0.0, up, 0.009, 0.0)[3, 3, 3] == pytest.approx(0.04)
+    assert standing(free, 0.0, up, 0.011, 0.0)[3, 3, 3] == -np.inf
+
+
+def test_distances_at_nodes_are_those_at_points() -> None:
+    cup = ((0.0, 0.0), (0.03, 0.0), (0.035, 0.08), (0.032, 0.08), (0.027, 0.003), (0.0, 0.003))
+    hole = Hole(position=(0.0, 0.0, 0.02), direction=(1.0, 0.0, 0.0), radius=0.004)
+    random = np.random.default_rng(5)
+    pieces = tuple(
+        Geom(type="mesh", size=(0, 0, 0), position=tuple(place), vertices=tuple(map(tuple, corners.tolist())))
+        for place, corners in zip(
+            random.normal(0, 0.02, (6, 3)).tolist(), random.normal(0, 0.01, (6, 9, 3)), strict=True
+        )
+    )
+    others = (
+        Geom(type="ellipsoid", size=(0.03, 0.02, 0.02), position=(0.03, 0.0, 0.0)),
+        Geom(type="box", size=(0.01, 0.02, 0.001), orientation=(0.8, 0.6, 0.0, 0.0)),
+    )
+    solids = union_of(
+        [solids_as_arrays(Shape(profile=cup, holes=(hole,))), solids_as_arrays(Shape(geoms=(*pieces, *others)))]
+    )
+    origin, step, shape = np.array([-0.05, -0.06, -0.05]), 0.0045, np.array([23, 27, 31])
+    indices = np.moveaxis(np.indices(tuple(shape.tolist()), dtype=np.float64), 0, -1)
+    nodes: FloatArray = origin + step * indices.reshape(-1, 3)
+    expected = Field(solids=solids).distance(nodes).reshape(shape)
+    assert np.array_equal(node_distances(solids, origin, step, shape), expected)
+
+
+def test_nodes_spread_along_free_ways_only() -> None:
+    free = np.ones((9, 5, 5), dtype=np.bool_)
+    free[4] = False
+    free[4, 0, 0] = True
+    nodes = np.zeros_like(free)
+    nodes[2, 2, 2] = True
+    assert np.array_equal(spread(nodes, free, 1), nodes | (np.abs(np.indices(free.shape) - 2).max(axis=0) <= 1))
+    assert not spread(nodes, free, 2)[5:].any()
+    assert spread(nodes, free, 3)[5].sum() == 4
