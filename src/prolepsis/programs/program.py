@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from prolepsis.programs.commands import Behaviour, Command, Sense
+from prolepsis.programs.commands import ActionFailedError, Behaviour, Command, Sense
 from prolepsis.terms import Value
 
 
@@ -42,6 +42,7 @@ class Running:
                 self._fresh = False
                 return next(self._behaviour)
             return self._behaviour.send(sense)
-        except StopIteration:
+        except (StopIteration, ActionFailedError):
+            # What failed has said so at its end; what should have come after it is not done.
             self.ended = True
             return ()

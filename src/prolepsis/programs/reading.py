@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 import prolepsis.programs.actions as _actions
 from prolepsis.errors import PlanError, UnknownNameError
 from prolepsis.programs.action import ACTIONS, KINDS, UNITS, bind_arguments
-from prolepsis.programs.commands import Begin, Behaviour, Command, End, Sense
+from prolepsis.programs.commands import ActionFailedError, Begin, Behaviour, Command, End, Sense
 from prolepsis.programs.program import Program
 from prolepsis.scene.scene import Scene
 from prolepsis.terms import Term, Value, Variable
@@ -99,6 +99,10 @@ def _with(begin: Begin, behaviour: Behaviour, sense: Sense) -> Behaviour:
         except StopIteration as ended:
             sense = ended.value
             break
+        except ActionFailedError as failed:
+            outcome = {"reason": failed.detail}
+            yield (*commands, End(term=begin.term, outcome=failed.outcome, evidence={**greatest, **outcome}))
+            raise
         first = False
         sense = yield (*commands, *made)
         commands = ()

@@ -88,7 +88,7 @@ class ArmHand:
         self._mount, self._palm = (int(model.body(name).id) for name in self._names)
         self._tool = int(model.site(f"{self.name}/tool").id)
         self._links, fingers = self._bodies(int(model.jnt_bodyid[model.joint(names[0]).id]))
-        self.ways.bind(state, places, (*self._links, *fingers))
+        self.ways.bind(state, places, self._links, fingers)
 
     def _bodies(self, first: int) -> tuple[dict[int, str], list[int]]:
         """Return the links from ``first`` to the palm by body, and what moves on the palm."""
@@ -185,7 +185,8 @@ class ArmHand:
         # A force at the hand displaces it by the servos' compliance; what it is displaced by tells the force.
         displaced = self._commanded()[:3] - self._data.site_xpos[self._tool]
         turn: FloatArray = np.asarray(self._data.xmat[self._mount], dtype=np.float64).reshape(3, 3)
-        force: FloatArray = turn @ np.asarray(np.linalg.solve(self._compliance(), turn.T @ displaced))
+        local: FloatArray = np.asarray(np.linalg.solve(self._compliance(), turn.T @ displaced), dtype=np.float64)
+        force: FloatArray = turn @ local
         return _triple(force)
 
 

@@ -14,12 +14,10 @@ from prolepsis.robots.inverse import ArmKinematics, Found
 from prolepsis.robots.robot import Arm
 from prolepsis.robots.turned import conjugated, inverse, turned
 from prolepsis.state import State, compose_pose, relative_pose
-from prolepsis.things import FloatArray, Quaternion, Triple
+from prolepsis.things import FloatArray, IntArray, Quaternion, Triple
 
 FINEST = 0.1
 """Two postures that are looked at for collisions differ by at most this much in each joint [rad]."""
-INSIDE = 1.0e-3
-"""Depth at which two things are said to collide [m]: what rests on each other touches, but not so deeply."""
 VIA_HEIGHTS = (0.1, 0.2, 0.3)
 """If the straight way is blocked, the arm goes through a place this far above the goal [m], or above where it is."""
 SEARCHES = 4
@@ -46,11 +44,13 @@ class ArmWays:
         self._scratch: Any = None
         self._version = -1
 
-    def bind(self, state: State, places: FloatArray, bodies: Collection[int]) -> None:
-        """Look at a model that is new: ``places`` of the joints in qpos, and the arm's bodies with its gripper."""
+    def bind(self, state: State, places: IntArray, links: Collection[int], fingers: Collection[int]) -> None:
+        """Look at a model that is new: ``places`` of the joints in qpos, bodies up to the palm, and those on it."""
         self._state = state
         self._places = places
-        self._bodies = frozenset(bodies)
+        self._bodies, self._fingers = frozenset((*links, *fingers)), frozenset(fingers)
+        joints = [j for j in range(state.model.njnt) if int(state.model.jnt_bodyid[j]) in self._fingers]
+        self._finger_places: IntArray = np.array([int(state.model.jnt_qposadr[j]) for j in joints], dtype=np.int64)
         self._mount = int(state.model.body(self._mount_name).id)
         self._scratch = mujoco.MjData(state.model)
 
@@ -78,8 +78,13 @@ class ArmWays:
             joints.append(now)
         return Way(joints=np.array(joints))
 
-    def way(self, offset: Triple, turn: Triple, ignoring: Collection[str]) -> Way:
-        """Return how the hand gets to a place by any way on which it touches nothing but what is ignored."""
+    def way(self, offset: Triple, turn: Triple, ignoring: Collection[str], opening: float | None = None) -> Way:
+        """Return how the hand gets to a place by any way on which nothing is touched, but by its fingers what is
+        ignored; with its pads ``opening`` [m] apart, or as they are."""
+        assert self._state is not None
+        self._scratch.qpos[:] = self._state.data.qpos
+        if opening is not None:
+            self._scratch.qpos[self._finger_places] = self._gap.length(opening) / 2
         nearest: Found | None = None
         blocked = ""
         for found in self._postures(np.asarray(offset), np.asarray(turn)):
@@ -129,22 +134,21 @@ class ArmWays:
         """Return what the arm would be inside of with the given joints, or nothing."""
         assert self._state is not None
         model, data = self._state.model, self._scratch
-        data.qpos[:] = self._state.data.qpos
         data.qpos[self._places] = joints
         mujoco.mj_kinematics(model, data)
         mujoco.mj_comPos(model, data)
         mujoco.mj_collision(model, data)
         things = self._state.world.scene.things
         for k in range(data.ncon):
-            if data.contact.dist[k] > -INSIDE:
+            if data.contact.dist[k] > 0.0:
                 continue
             bodies = [int(model.geom_bodyid[g]) for g in data.contact.geom[k]]
             if (bodies[0] in self._bodies) == (bodies[1] in self._bodies):
                 continue
-            other = bodies[1] if bodies[0] in self._bodies else bodies[0]
+            own, other = bodies if bodies[0] in self._bodies else reversed(bodies)
             number = int(self._state.body_thing[other])
             name = things[number].name if number >= 0 else model.body(other).name
-            if name.split("/", 1)[0] not in ignoring:
+            if own not in self._fingers or name.split("/", 1)[0] not in ignoring:
                 return name
         return ""
 

@@ -84,7 +84,13 @@ class Hand:
             orientation=orientation,
             mass=total,
             roles=frozenset({"Gripper"}),
-            quantities={"opening": opening, "maxOpening": self.max_opening, "friction": friction},
+            quantities={
+                "opening": opening,
+                "maxOpening": self.max_opening,
+                "maxForce": self.max_force,
+                "maxAcceleration": self.max_acceleration,
+                "friction": friction,
+            },
         )
         parts = [("palm", palm, 0.0, self.palm_mass)]
         for side, sign in (("left_finger", 1.0), ("right_finger", -1.0)):

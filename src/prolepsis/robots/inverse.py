@@ -22,7 +22,9 @@ DAMPING = 1.0e-6
 CLOSE, TURNED = 5.0e-4, 2.0e-3
 """A solution is at most this far from where the gripper should be [m, rad]."""
 STEPS = 60
-"""Iterations before a search from one start gives up."""
+"""Iterations before a search from one start gives up ..."""
+PATIENCE, PROGRESS = 6, 0.9
+"""... or if so many iterations did not bring the error below this share of what it was."""
 LONGEST_STEP = 0.3
 """Greatest change of a joint in one iteration of a search [rad]."""
 
@@ -137,6 +139,7 @@ class ArmKinematics:
         """Return coordinates that put the gripper at ``pose``, or as near as a search from ``start`` gets."""
         joints = start.copy()
         best: Found | None = None
+        errors: list[float] = []
         for _ in range(STEPS):
             self._here.update(joints)
             self._aim(pose)
@@ -148,7 +151,9 @@ class ArmKinematics:
             )
             if best is None or here.distance + here.angle < best.distance + best.angle:
                 best = here
-            if here.distance < CLOSE / 5 and here.angle < TURNED / 5:
+            errors.append(here.distance + here.angle)
+            stuck = len(errors) > PATIENCE and errors[-1] > PROGRESS * errors[-1 - PATIENCE]
+            if stuck or (here.distance < CLOSE / 5 and here.angle < TURNED / 5):
                 break
             rates: FloatArray = self._mink.solve_ik(
                 self._here, self._tasks, 1.0, solver="daqp", damping=DAMPING, limits=self._searching

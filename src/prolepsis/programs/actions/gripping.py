@@ -5,18 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from prolepsis.programs.action import FORCE, HAND, OBJECT, Parameter, action
-from prolepsis.programs.actions.motion import (
-    CLEARANCE,
-    HEIGHT,
-    grasping_width,
-    open_to,
-    reach,
-    stay,
-    way_to,
-    within_workspace,
-)
+from prolepsis.programs.actions.motion import HEIGHT, open_to, reach, stay, within_workspace
 from prolepsis.programs.commands import Behaviour, CloseGripper, Sense
-from prolepsis.robots.hand import HAND as ROBOT
+from prolepsis.programs.grasping import CLEARANCE, grip_as_turned
 from prolepsis.scene.scene import Scene
 from prolepsis.things import Thing
 
@@ -42,17 +33,19 @@ def close_from(hand: Thing, width: float, force: float, sense: Sense) -> Behavio
 def close(scene: Scene, sense: Sense, *, hand: Thing, force: float) -> Behaviour:
     """Close the gripper slowly until contact, then raise the force to the given one."""
     del scene
-    return (yield from close_from(hand, ROBOT.max_opening, force, sense))
+    return (yield from close_from(hand, hand.quantities["maxOpening"], force, sense))
 
 
 @action(HAND, OBJECT, FORCE, HEIGHT, check=within_workspace)
 def grasp(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, force: float, height: float) -> Behaviour:
     """Reach for the object's middle, or a height above, unless the hand is there; close with the given force."""
-    width = grasping_width(hand, object)
-    way = way_to(hand, object, sense, height)
-    if np.abs(way).max() > CLEARANCE or sense.hands[hand.name].opening < width:
+    grip = grip_as_turned(hand, object, sense, height)
+    here = sense.hands[hand.name]
+    way = np.subtract(grip.offset, here.offset)
+    if np.abs(way).max() > CLEARANCE or here.opening < grip.width:
         sense = yield from reach(scene, sense, hand=hand, object=object, speed=0.25, height=height)
-    return (yield from close_from(hand, width + CLEARANCE, force, sense))
+        grip = grip_as_turned(hand, object, sense, height)
+    return (yield from close_from(hand, grip.width + CLEARANCE, force, sense))
 
 
 @action(HAND, OBJECT, FORCE, Parameter(name="duration", kind="duration", default=1.0))
@@ -60,10 +53,10 @@ def squeeze(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, force: fl
     """Press what the hand holds with the given force for a while, then hold it as before."""
     del scene, object
     before = sense.hands[hand.name].grip
-    sense = yield from close_from(hand, ROBOT.max_opening, force, sense)
+    sense = yield from close_from(hand, hand.quantities["maxOpening"], force, sense)
     sense = yield from stay(duration, sense)
     if before > 0.0:
-        sense = yield from close_from(hand, ROBOT.max_opening, before, sense)
+        sense = yield from close_from(hand, hand.quantities["maxOpening"], before, sense)
     return sense
 
 
@@ -71,4 +64,4 @@ def squeeze(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, force: fl
 def release(scene: Scene, sense: Sense, *, hand: Thing) -> Behaviour:
     """Open the gripper fully."""
     del scene
-    return (yield from open_to(hand, ROBOT.max_opening, sense))
+    return (yield from open_to(hand, hand.quantities["maxOpening"], sense))

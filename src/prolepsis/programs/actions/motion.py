@@ -8,19 +8,22 @@ import numpy as np
 
 from prolepsis.errors import PlanError
 from prolepsis.programs.action import HAND, OBJECT, Parameter, action
-from prolepsis.programs.commands import Behaviour, HandTarget, OpenGripper, Sense
+from prolepsis.programs.commands import ActionFailedError, Behaviour, HandTarget, OpenGripper, Sense, Way
+from prolepsis.programs.following import follow, go
+from prolepsis.programs.grasping import (
+    LEAST_MARGIN,
+    MARGIN,
+    STANDOFF,
+    grasping_width,
+    grip_as_turned,
+    grips,
+    least_width,
+)
 from prolepsis.robots.hand import HAND as ROBOT
-from prolepsis.robots.hand import rotate
-from prolepsis.scene.extent import extent_along, middle
+from prolepsis.scene.robot_world import robot_of_gripper
 from prolepsis.scene.scene import Scene
-from prolepsis.things import FloatArray, Thing, Triple
+from prolepsis.things import FloatArray, Quaternion, Thing, Triple
 
-STANDOFF = 0.08
-"""Before the last straight stretch, the hand stops this far from the object [m]."""
-CLEARANCE = 0.006
-"""The guarded closing begins when the gap exceeds what is to be grasped by this much [m]."""
-MARGIN = 0.02
-"""The gap with which the hand reaches exceeds what is to be grasped by this much [m]."""
 ARRIVED = 1.0e-4
 """Shorter ways are not worth a move [m]."""
 TICK = 1.0e-3
@@ -58,6 +61,9 @@ def travel(hand: Thing, sense: Sense, displacement: Triple, acceleration: float,
         speed: Greatest speed [m/s].
     """
     start, turn = sense.hands[hand.name].offset, sense.hands[hand.name].turn
+    if sense.hands[hand.name].arm is not None:
+        steps = np.array([step for step, _ in line(displacement, acceleration, speed)])
+        return (yield from follow(hand, sense, steps + start, np.tile(turn, (len(steps), 1))))
     for step, velocity in line(displacement, acceleration, speed):
         offset = (start[0] + step[0], start[1] + step[1], start[2] + step[2])
         sense = yield (HandTarget(hand=hand.name, offset=offset, velocity=velocity, turn=turn),)
@@ -80,50 +86,68 @@ def open_to(hand: Thing, width: float, sense: Sense) -> Behaviour:
     return sense
 
 
-def grasping_width(hand: Thing, object: Thing) -> float:
-    """Return the object's extent between the pads [m]."""
-    return extent_along(object, rotate(hand.orientation, (0.0, 1.0, 0.0)))
-
-
-def way_to(hand: Thing, object: Thing, sense: Sense, height: float = 0.0) -> FloatArray:
-    """Return the way from a hand to a place [m], shape (3,): ``height`` over the middle of an object, which is taken to
-    stand as at the start."""
-    place = np.asarray(sense.place(object.name)) + middle(object) + (0.0, 0.0, height)
-    return place - np.asarray(sense.hands[hand.name].position)
-
-
 def within_workspace(scene: Scene, *, hand: Thing, object: Thing, **_: object) -> None:
     """Refuse an object that the hand cannot get to or around."""
-    del scene
-    way = np.abs(np.asarray(object.position) - np.asarray(hand.position))
-    if way.max() > ROBOT.workspace:
-        raise PlanError(
-            f"plan: {object.name} is out of reach of {hand.name}: {way.max():.2f} m away, allowed {ROBOT.workspace:g} m"
-        )
-    width = grasping_width(hand, object)
-    if width > ROBOT.max_opening:
+    widest = hand.quantities["maxOpening"]
+    width = grasping_width(hand.orientation, object)
+    if robot_of_gripper(scene, hand) is not None:
+        width = least_width(object) + LEAST_MARGIN
+    else:
+        way = np.abs(np.asarray(object.position) - np.asarray(hand.position)).max()
+        if way > ROBOT.workspace:
+            raise PlanError(
+                f"plan: {object.name} is out of reach of {hand.name}: {way:.2f} m away, allowed {ROBOT.workspace:g} m"
+            )
+    if width > widest:
         raise PlanError(
             f"plan: {object.name} is not graspable: {width * 1000:.0f} mm wide between the pads, "
-            f"{hand.name} opens {ROBOT.max_opening * 1000:.0f} mm"
+            f"{hand.name} opens {widest * 1000:.0f} mm"
         )
 
 
 @action(HAND, OBJECT, SPEED, HEIGHT, check=within_workspace)
 def reach(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, speed: float, height: float) -> Behaviour:
     """Open the gripper wider than the object, if it is not, and move it round the object, or a height above."""
-    del scene
-    width = min(grasping_width(hand, object) + MARGIN, ROBOT.max_opening)
+    robot = robot_of_gripper(scene, hand)
+    if robot is not None:
+        return (yield from _reach_by_arm(hand, object, sense, speed, height, scene.thing(robot).orientation))
+    grip = grip_as_turned(hand, object, sense, height)
+    width = min(grip.width + MARGIN, ROBOT.max_opening)
     if sense.hands[hand.name].opening < width:
         sense = yield from open_to(hand, width, sense)
-    way = way_to(hand, object, sense, height)
-    forward = rotate(hand.orientation, (1.0, 0.0, 0.0))
-    ahead = float(way @ forward)
-    first = way - min(ahead, STANDOFF) * forward
+        grip = grip_as_turned(hand, object, sense, height)
+    way = np.subtract(grip.offset, sense.hands[hand.name].offset)
+    ahead = float(way @ np.asarray(grip.forward))
+    first = way - min(ahead, STANDOFF) * np.asarray(grip.forward)
     for part in (first, way - first):
         if np.linalg.norm(part) > ARRIVED:
             step = (float(part[0]), float(part[1]), float(part[2]))
             sense = yield from travel(hand, sense, step, 2.0, speed)
     return sense
+
+
+def _reach_by_arm(
+    hand: Thing, object: Thing, sense: Sense, speed: float, height: float, reference: Quaternion
+) -> Behaviour:
+    """Move round the object from the first direction from which the arm can."""
+    arm = sense.hands[hand.name].arm
+    assert arm is not None
+    first: Way | None = None
+    for grip in grips(hand, object, sense, height, arm, reference):
+        width = max(min(grip.width + MARGIN, hand.quantities["maxOpening"]), sense.hands[hand.name].opening)
+        for place, opening in ((grip.offset, grip.width), (grip.offset, width), (grip.before(STANDOFF), width)):
+            found = arm.way(place, grip.turn, {object.name}, opening)
+            if found.problem:
+                first = first or found
+                break
+        else:
+            if sense.hands[hand.name].opening < width:
+                sense = yield from open_to(hand, width, sense)
+            sense = yield from go(hand, sense, grip.before(STANDOFF), grip.turn, {object.name})
+            step = _triple(np.subtract(grip.offset, grip.before(STANDOFF)))
+            return (yield from travel(hand, sense, step, 2.0, speed))
+    assert first is not None
+    raise ActionFailedError(first.problem, f"{object.name} by {hand.name}: {first.detail}")
 
 
 @action(HAND, Parameter(name="height", kind="length"), SPEED, ACCELERATION)
@@ -159,3 +183,7 @@ def wait(scene: Scene, sense: Sense, *, duration: float) -> Behaviour:
     """Let time pass."""
     del scene
     return (yield from stay(duration, sense))
+
+
+def _triple(values: FloatArray) -> Triple:
+    return (float(values[0]), float(values[1]), float(values[2]))

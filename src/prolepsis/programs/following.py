@@ -1,0 +1,128 @@
+"""Following: a hand goes along given places and turns, or anywhere by a free way, as fast as its joints may."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from typing import Any
+
+import numpy as np
+
+from prolepsis.programs.commands import ActionFailedError, Arm, ArmTarget, Behaviour, HandTarget, Sense, Way
+from prolepsis.programs.turning import TICK
+from prolepsis.things import FloatArray, Thing, Triple
+
+KNOTS = 20
+"""Ticks between two places at which the joints of a given course are computed."""
+SHORTEST = 0.05
+"""A free way takes at least this long [s]."""
+PEAK_SPEED, PEAK_ACCELERATION = 1.875, 5.7735
+"""Of a course from rest to rest with the least jerk, over way / time and way / time^2 [1]."""
+
+
+def follow(hand: Thing, sense: Sense, offsets: FloatArray, turns: FloatArray) -> Behaviour:
+    """Go along places and turns, one a tick, each shape (n, 3); slower where the joints of an arm cannot follow.
+
+    Raises:
+        ActionFailedError: If the arm cannot get there, or is pressed against something on the way.
+    """
+    here = sense.hands[hand.name]
+    if here.arm is None:
+        velocities = np.diff(offsets, axis=0, prepend=[here.offset]) / TICK
+        spins = np.diff(turns, axis=0, prepend=[here.turn]) / TICK
+        for offset, velocity, turn, spin in zip(offsets, velocities, turns, spins, strict=True):
+            sense = yield (
+                HandTarget(
+                    hand=hand.name,
+                    offset=_triple(offset),
+                    velocity=_triple(velocity),
+                    turn=_triple(turn),
+                    spin=_triple(spin),
+                ),
+            )
+        return sense
+    knots = np.unique(np.append(np.arange(KNOTS - 1, len(offsets), KNOTS), len(offsets) - 1))
+    way = here.arm.path(offsets[knots], turns[knots])
+    _refuse(hand, way)
+    times = np.concatenate([[0.0], (knots + 1) * TICK])
+    points = np.concatenate([[here.arm.joints], way.joints])
+    course = _spline(times, points)
+    duration = float(times[-1])
+    count = max(round(duration * _stretch(course, duration, here.arm) / TICK), 1)
+    moments = np.asarray(np.arange(1, count + 1) * (duration / count), dtype=np.float64)
+    joints, rates = course(moments), course(moments, 1) * (duration / (count * TICK))
+    places = np.minimum((moments / TICK).astype(int), len(offsets)) - 1
+    for k in range(count):
+        p = max(int(places[k]), 0)
+        sense = yield (_target(hand, joints[k], rates[k], offsets[p], turns[p]),)
+        _refuse_bump(hand, sense)
+    return (yield (_target(hand, joints[-1], 0 * rates[-1], offsets[-1], turns[-1]),))
+
+
+def go(hand: Thing, sense: Sense, offset: Triple, turn: Triple, ignoring: Collection[str]) -> Behaviour:
+    """Go to a place by any way on which the arm touches nothing but what is ignored.
+
+    Raises:
+        ActionFailedError: If there is no such way, or the arm is pressed against something on it.
+    """
+    arm = sense.hands[hand.name].arm
+    assert arm is not None, "a hand that flies goes straight"
+    way = arm.way(offset, turn, ignoring)
+    _refuse(hand, way)
+    for start, end in zip(way.joints[:-1], way.joints[1:], strict=True):
+        distance = np.abs(end - start)
+        duration = max(
+            float((PEAK_SPEED * distance / arm.speeds).max()),
+            float(np.sqrt(PEAK_ACCELERATION * distance / arm.accelerations).max()),
+            SHORTEST,
+        )
+        count = max(round(duration / TICK), 1)
+        shares = np.arange(1, count + 1) / count
+        for s in shares:
+            share = s**3 * (10 - 15 * s + 6 * s * s)
+            rate = 30 * s * s * (1 - s) ** 2 / (count * TICK)
+            sense = yield (_target(hand, start + share * (end - start), rate * (end - start), offset, turn),)
+            _refuse_bump(hand, sense)
+    return sense
+
+
+def _spline(times: FloatArray, points: FloatArray) -> Callable[..., FloatArray]:
+    """Return the cubic spline through points, at rest at both ends; its second argument is the derivative's order."""
+    # The import takes longer than a scene without an arm.
+    from scipy.interpolate import CubicSpline  # pyright: ignore[reportMissingTypeStubs]
+
+    spline: Any = CubicSpline(times, points, bc_type="clamped")
+    return spline
+
+
+def _stretch(course: Callable[..., FloatArray], duration: float, arm: Arm) -> float:
+    """Return by how much slower a course must be gone for the joints to follow: at least 1."""
+    moments = np.linspace(0.0, duration, max(int(duration / (5 * TICK)), 2))
+    speeds = np.abs(course(moments, 1)).max(axis=0) / arm.speeds
+    accelerations = np.abs(course(moments, 2)).max(axis=0) / arm.accelerations
+    return max(1.0, float(speeds.max()), float(np.sqrt(accelerations.max())))
+
+
+def _target(hand: Thing, joints: FloatArray, rates: FloatArray, offset: object, turn: object) -> ArmTarget:
+    return ArmTarget(
+        hand=hand.name,
+        joints=tuple(map(float, joints)),
+        speeds=tuple(map(float, rates)),
+        offset=_triple(offset),
+        turn=_triple(turn),
+    )
+
+
+def _refuse(hand: Thing, way: Way) -> None:
+    if way.problem:
+        raise ActionFailedError(way.problem, f"{hand.name}: {way.detail}")
+
+
+def _refuse_bump(hand: Thing, sense: Sense) -> None:
+    bump = sense.hands[hand.name].bump
+    if bump:
+        raise ActionFailedError("in_collision", f"{hand.name}: its arm is pressed against {bump}")
+
+
+def _triple(values: object) -> Triple:
+    x, y, z = (float(value) for value in values)  # type: ignore[attr-defined]
+    return (x, y, z)

@@ -1,0 +1,120 @@
+"""Where a hand goes to grasp a thing: between which of its sides, and from which direction."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from prolepsis.programs.commands import Arm, Sense
+from prolepsis.robots.hand import rotate
+from prolepsis.robots.turned import turned
+from prolepsis.scene.extent import extent_along, middle
+from prolepsis.things import FloatArray, Quaternion, Thing, Triple
+
+STANDOFF = 0.08
+"""Before the last straight stretch, the hand stops this far from the object [m]."""
+CLEARANCE = 0.006
+"""The guarded closing begins when the gap exceeds what is to be grasped by this much [m]."""
+MARGIN = 0.02
+"""The gap with which the hand reaches exceeds what is to be grasped by this much, if it opens so wide [m] ..."""
+LEAST_MARGIN = 0.002
+"""... and by at least this much [m]."""
+TALL = 0.06
+"""What is taller is grasped from the side if possible, what is lower from above [m]."""
+FROM_THE_SIDE = (0.0, 15.0, 30.0, 45.0, 60.0, 90.0)
+FROM_ABOVE = (60.0, 75.0, 90.0, 45.0, 30.0, 15.0, 0.0)
+"""Pitches of the hand that are tried, in this order: 0 is level, 90 points down [degrees]."""
+ASIDE = (0.0, 25.0, -25.0, 50.0, -50.0)
+"""Yaws that are tried, from the direction in which the object lies from the shoulder [degrees]."""
+HIGHER = (0.0, 0.004, 0.008)
+"""Heights over the middle that are tried, so that the fingertips clear what the object lies on [m]."""
+ROLLS = (0.0, 90.0)
+"""Rolls that are tried [degrees]: pads to the left and right, then above and below."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Grip:
+    """A place of the hand at which an object is between its pads."""
+
+    offset: Triple
+    """Of the hand's frame from its first place [m]."""
+    turn: Triple
+    """Yaw, pitch and roll of the hand [rad]."""
+    width: float
+    """Extent of the object between the pads [m]."""
+    forward: Triple
+    """Unit vector from the palm to the fingertips, in the world."""
+
+    def before(self, distance: float) -> Triple:
+        """Return the place that is ``distance`` [m] before it, along the hand's axis."""
+        x, y, z = (o - distance * f for o, f in zip(self.offset, self.forward, strict=True))
+        return (x, y, z)
+
+
+def as_seen(object: Thing, sense: Sense) -> Thing:
+    """Return an object where it is now."""
+    return replace(object, position=sense.place(object.name), orientation=sense.orientation(object.name))
+
+
+def grasping_width(orientation: Quaternion, object: Thing) -> float:
+    """Return an object's extent between the pads of a hand with that orientation [m]."""
+    return extent_along(object, rotate(orientation, (0.0, 1.0, 0.0)))
+
+
+def least_width(object: Thing) -> float:
+    """Return the least extent of an object along its own axes [m]."""
+    return min(extent_along(object, rotate(object.orientation, _axis(k))) for k in range(3))
+
+
+def way_to(hand: Thing, object: Thing, sense: Sense, height: float = 0.0) -> FloatArray:
+    """Return the way from a hand to a place [m], shape (3,): ``height`` over the middle of an object."""
+    seen = as_seen(object, sense)
+    place = np.asarray(seen.position) + middle(seen) + (0.0, 0.0, height)
+    return place - np.asarray(sense.hands[hand.name].position)
+
+
+def grip_as_turned(hand: Thing, object: Thing, sense: Sense, height: float) -> Grip:
+    """Return the grip for which the hand need not turn."""
+    here = sense.hands[hand.name]
+    width = grasping_width(here.orientation, as_seen(object, sense))
+    way = way_to(hand, object, sense, height)
+    forward = rotate(here.orientation, (1.0, 0.0, 0.0))
+    if here.arm is not None:
+        way = way - here.arm.pad_shift(width) * forward
+    return Grip(offset=_sum(here.offset, way), turn=here.turn, width=width, forward=_triple(forward))
+
+
+def grips(hand: Thing, object: Thing, sense: Sense, height: float, arm: Arm, reference: Quaternion) -> Iterator[Grip]:
+    """Yield the grips of a hand on an arm that are wide enough, the most natural first."""
+    here = sense.hands[hand.name]
+    seen = as_seen(object, sense)
+    place = np.asarray(seen.position) + middle(seen) + (0.0, 0.0, height)
+    first = np.asarray(here.position) - np.asarray(here.offset)
+    bearing = arm.bearing(_triple(place))
+    tall = extent_along(seen, np.array([0.0, 0.0, 1.0])) > TALL
+    pitches = FROM_THE_SIDE if tall else FROM_ABOVE
+    for pitch, roll, aside, higher in itertools.product(pitches, ROLLS, ASIDE, HIGHER):
+        turn = (bearing + math.radians(aside), math.radians(pitch), math.radians(roll))
+        orientation = turned(reference, turn)
+        width = grasping_width(orientation, seen)
+        if width + LEAST_MARGIN > hand.quantities["maxOpening"]:
+            continue
+        forward = rotate(orientation, (1.0, 0.0, 0.0))
+        offset = place + (0.0, 0.0, higher) - arm.pad_shift(width) * forward - first
+        yield Grip(offset=_triple(offset), turn=turn, width=width, forward=_triple(forward))
+
+
+def _axis(k: int) -> Triple:
+    return (float(k == 0), float(k == 1), float(k == 2))
+
+
+def _sum(first: Triple, second: FloatArray) -> Triple:
+    return (first[0] + float(second[0]), first[1] + float(second[1]), first[2] + float(second[2]))
+
+
+def _triple(values: FloatArray) -> Triple:
+    return (float(values[0]), float(values[1]), float(values[2]))
