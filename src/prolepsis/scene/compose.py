@@ -12,10 +12,12 @@ from prolepsis.engine import mujoco
 from prolepsis.errors import KnowledgeError
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.robots.hand import HAND
+from prolepsis.robots.robot import Robot
 from prolepsis.scenario_file import DEFAULT_PARTICLES
 from prolepsis.scene.egg_inside import egg_pools
 from prolepsis.scene.liquids import is_liquid, liquid_thing, place_of, refuse_idle
 from prolepsis.scene.placing import resting_height
+from prolepsis.scene.robots import robot_of, robot_things
 from prolepsis.scene.scene import Pool, Scene
 from prolepsis.scene.shelled import shelled_things
 from prolepsis.scene.world import HIDDEN_ROLES
@@ -57,15 +59,16 @@ FEATURES = ("lid",)
 """What a shape may have or not."""
 ATTRIBUTES = {"wet": "WetThing", "dirty": "DirtyThing", "broken": "BrokenThing"}
 """Attributes that controllers may change, and the class of what has them at the start."""
-GRIPPER_SHAPE, MESH_SHAPE = "parallelGripper", "mesh"
+GRIPPER_SHAPE, ROBOT_SHAPE, MESH_SHAPE = "parallelGripper", "articulated", "mesh"
 
 
-def compose(kb: KnowledgeBase, *, particles: int = DEFAULT_PARTICLES) -> Scene:
+def compose(kb: KnowledgeBase, *, particles: int = DEFAULT_PARTICLES, robot: Robot | None = None) -> Scene:
     """Return the scene of a situation.
 
     Args:
         kb: The situation.
         particles: Number of particles of the largest liquid.
+        robot: What an individual of class Robot is whose class says no more.
 
     Raises:
         KnowledgeError: If something has no shape or place that can be simulated.
@@ -82,6 +85,10 @@ def compose(kb: KnowledgeBase, *, particles: int = DEFAULT_PARTICLES) -> Scene:
         inside: vessel for relation, vessel, inside in kb.relations() if relation == "contains" and inside in wholes
     }
     made: dict[str, tuple[Thing, ...]] = {}
+    robots = {name: robot_of(kb, name, robot) for name in wholes if kb.is_a(name, "Robot")}
+    for name, each in robots.items():
+        made[name] = robot_things(kb, each, _thing(kb, name), partial(_thing, kb))
+    wholes = [name for name in wholes if name not in robots]
     for name in _supporters_first(wholes, below):
         made[name] = _things_of(kb, name, made, below.get(name))
     pools: tuple[Pool, ...] = ()
@@ -98,7 +105,8 @@ def compose(kb: KnowledgeBase, *, particles: int = DEFAULT_PARTICLES) -> Scene:
             spacing = next((pool.spacing for pool in pools), None)
             made[name], inside = _with_inside(made[name], spacing)
             pools += inside
-    return Scene(things=tuple(thing for name in names for thing in made[name]), domain=kb.domain(), pools=pools)
+    things = tuple(thing for name in names for thing in made[name])
+    return Scene(things=things, domain=kb.domain(), pools=pools, robots=robots)
 
 
 def _with_inside(things: tuple[Thing, ...], spacing: float | None) -> tuple[tuple[Thing, ...], tuple[Pool, ...]]:
@@ -168,7 +176,7 @@ def _thing(kb: KnowledgeBase, name: str) -> Thing:
     if wet is not None and isinstance(wet[1].value, float):
         quantities["frictionWhenWet"] = wet[1].value
     fixed = kb.is_a(name, "Furniture")
-    built = Shape() if shape == GRIPPER_SHAPE else _built(kb, name, shape, quantities)
+    built = Shape() if shape in (GRIPPER_SHAPE, ROBOT_SHAPE) else _built(kb, name, shape, quantities)
     if not fixed and built.geoms and "mass" not in quantities:
         raise KnowledgeError(f"{name} ({kind}) has no mass and no density to derive it from")
     default_height = 0.0
