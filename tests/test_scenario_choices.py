@@ -55,3 +55,19 @@ def test_a_monitor_or_thing_that_is_not_there_is_refused(
     assert main(["project", str(path), "--out", str(tmp_path / "run")]) == 2
     assert message in capfd.readouterr().err
     assert not (tmp_path / "run").exists()
+
+
+def test_a_named_robot_joins_the_situation_and_comes_back(tmp_path: Path) -> None:
+    (tmp_path / "s.ttl").write_text(
+        "@prefix : <https://w3id.org/prolepsis#> .\n:floor a :Floor .\n"
+        ":pr2 a :PR2 ; :x -0.5 ; :hasPart :rightGripper .\n:rightGripper a :Gripper ; :wet true .\n"
+    )
+    path = tmp_path / "short.toml"
+    path.write_text('situation = "s.ttl"\nplan = "wait(0.02)"\nduration = 0.03\nrobot = "pr2"\n')
+    made = project(path, out=tmp_path / "run")
+    assert made.scene.thing("pr2").position == (-0.5, 0.0, 0.0)
+    assert {"rightGripper", "leftGripper"} < {thing.name for thing in made.scene.things}
+    assert made.ask("instance_of(rightGripper, 'WetGripper')")
+    loaded = Projection.load(tmp_path / "run").scenario
+    assert loaded.robot == "pr2"
+    assert "leftGripper" in loaded.knowledge_base().parts("pr2")

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, cast
 
-from prolepsis.errors import InputError, LogError, ScenarioError, UnknownNameError
+from prolepsis.errors import InputError, LogError, ScenarioError
 from prolepsis.kernels import are_kept
 from prolepsis.log import Log
 from prolepsis.log_files import read_log_files, write_log_files
@@ -106,9 +106,6 @@ def project(
     read = read_scenario(scenario, {**(settings or {}), **parameters})
     if out is not None:
         check_replaceable(out)
-
-    if read.robot not in (None, "hand"):
-        raise UnknownNameError.of("robot", read.robot, ["hand"], "robot")
 
     tell = progress or _silent
     tell("reading the knowledge")

@@ -18,6 +18,11 @@ from prolepsis.units import read_quantity, si_symbol, to_si, unit_of
 
 FEWEST_PARTICLES, MOST_PARTICLES = 20, 200_000
 """Fewer are no liquid; more would take gigabytes of log, and days."""
+ROBOTS: Mapping[str, Path | None] = {
+    "hand": None,
+    **{file.stem: file for file in sorted((Path(__file__).parent / "knowledge" / "robots").glob("*.ttl"))},
+}
+"""Robots that a scenario may name, with what each adds to the situation: a hand is declared there by who wants one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +50,7 @@ class Scenario:
     knowledge: Mapping[str, float | str] = field(default_factory=dict[str, "float | str"])
     """Values of the knowledge base that are replaced, ``{"eggshell3.friction": 0.4}``."""
     robot: str | None = None
-    """Robot that carries out the plan, if it is not an individual of the situation."""
+    """Robot that is added to the situation, one of ``ROBOTS``; None if the situation has all that it needs."""
     duration: float | None = None
     """Simulated time [s]; None for the plan's length plus settling."""
     seed: int = 0
@@ -67,6 +72,8 @@ class Scenario:
             raise ScenarioError(
                 f"{self.path}: particles = {self.particles}: allowed: {FEWEST_PARTICLES} to {MOST_PARTICLES}"
             )
+        if self.robot is not None and self.robot not in ROBOTS:
+            raise UnknownNameError.of("robot", self.robot, ROBOTS, f"{self.path}: robot")
         for name, parameter in self.parameters.items():
             if isinstance(parameter.value, float) and not math.isfinite(parameter.value):
                 raise ScenarioError(f"{self.path}: parameter {name} must be finite, not {parameter.value}")
@@ -149,7 +156,8 @@ class Scenario:
         Raises:
             UnknownNameError: If a parameter or a knowledge value names nothing that is there.
         """
-        base = KnowledgeBase.load(*self.situation)
+        robot = ROBOTS.get(self.robot) if self.robot is not None else None
+        base = KnowledgeBase.load(*([robot] if robot is not None else []), *self.situation)
         for name, parameter in self.parameters.items():
             if isinstance(parameter.value, str) and parameter.value not in base.individuals:
                 raise UnknownNameError.of(
