@@ -13,6 +13,9 @@ from prolepsis.liquid.particles import ParticleState
 from prolepsis.scene.world import DEBRIS_IMPEDANCE_RATIO, World, add_geom
 from prolepsis.things import FloatArray, IntArray, Quaternion, Triple
 
+FEW_CONTACTS = 16
+"""Up to so many contacts, plain lists are faster than arrays."""
+
 
 @dataclass(kw_only=True, slots=True)
 class ContactForces:
@@ -54,6 +57,8 @@ class State:
     """The particles of all liquids, if there are any."""
     _body_of_geom: list[int] = field(default_factory=list[int])
     _bodies_version: int = -1
+    _forces: list[tuple[int, int, int, float]] = field(default_factory=list[tuple[int, int, int, float]])
+    _forces_at: tuple[int, float] = (-1, 0.0)
 
     @classmethod
     def of(cls, world: World) -> State:
@@ -146,14 +151,28 @@ class State:
 
     def normal_forces(self) -> list[tuple[int, int, int, float]]:
         """Return contact number, both bodies and normal force [N] of each active contact of the last substep."""
-        # Plain lists: for the handful of contacts that there mostly are, they are much faster than arrays.
         data = self.data
         if not data.ncon:
             return []
+        # Several ask after each step.
+        if self._forces_at != (self.version, data.time):
+            self._forces_at = (self.version, data.time)
+            self._forces = self._listed_forces()
+        return self._forces
+
+    def _listed_forces(self) -> list[tuple[int, int, int, float]]:
+        data, contact = self.data, self.data.contact
+        if data.ncon > FEW_CONTACTS:
+            active = np.flatnonzero(contact.efc_address >= 0)
+            bodies = self.model.geom_bodyid[contact.geom[active]]
+            forces = data.efc_force[contact.efc_address[active]]
+            return list(
+                zip(active.tolist(), bodies[:, 0].tolist(), bodies[:, 1].tolist(), forces.tolist(), strict=True)
+            )
         if self._bodies_version != self.version:
             self._bodies_version = self.version
             self._body_of_geom = self.model.geom_bodyid.tolist()
-        body, force, contact = self._body_of_geom, data.efc_force, data.contact
+        body, force = self._body_of_geom, data.efc_force
         return [
             (k, body[a], body[b], float(force[row]))
             for k, ((a, b), row) in enumerate(zip(contact.geom.tolist(), contact.efc_address.tolist(), strict=True))

@@ -155,8 +155,10 @@ class WallBodies:
 def _held(state: State) -> set[int]:
     """Return the bodies that touch a jointed one, as an object does the fingers of a hand."""
     jointed = (state.model.body_dofnum > 0) & (state.model.body_dofnum != FREE_FREEDOMS)
-    found: set[int] = set()
-    for _, a, b, force in state.normal_forces():
-        if force > 0.0 and jointed[a] != jointed[b]:
-            found.add(b if jointed[a] else a)
-    return found
+    contact = state.data.contact
+    active = contact.efc_address >= 0
+    pressed = state.data.efc_force[contact.efc_address[active]] > 0.0
+    first, second = state.model.geom_bodyid[contact.geom[active][pressed]].reshape(-1, 2).T
+    mixed = jointed[first] != jointed[second]
+    held: IntArray = np.where(jointed[first], second, first)[mixed]
+    return set(held.tolist())

@@ -70,7 +70,6 @@ class Liquid:
         self.effort = Effort()
         self._gravity = np.array(gravity)
         self._fall = float(np.linalg.norm(gravity)) * LONGEST
-        self._tables = wall_tables()
         count = len(particles.mass)
         self._impulse = np.zeros(count)
         self._viscous, self._pressed = np.zeros((count, 3)), np.zeros((count, 3))
@@ -109,12 +108,12 @@ class Liquid:
         Returns:
             Impulse [N s] on each body and its moment about the world's origin [N m s], shape (B, 6).
         """
-        p, tables, spacing = self.particles, self._tables, self.particles.spacing
+        p, spacing = self.particles, self.particles.spacing
         reaction = np.zeros((len(bodies.position), 6))
         free: IntArray = np.flatnonzero(p.free)
         if not len(free):
             return reaction
-        clock = _Clock(self.effort)
+        clock, tables = _Clock(self.effort), wall_tables()
         order, rows, layer = row_order(p.position.take(free, axis=0), SUPPORT * spacing)
         ids = free[order]
         n = len(ids)

@@ -47,6 +47,7 @@ class Membrane(Phenomenon):
         self._first = int(self._own[0])
         places = state.particles.position[self._own]
         self._rest = places - places.mean(axis=0)
+        self._places, self._push = np.zeros_like(places), np.zeros_like(places)
         self.strength = force / (2 * math.pi * thing.quantities["probeRadius"])
         """Tension at which it tears: the probe's force over its rim [N/m]."""
         self.tension = 0.0
@@ -66,6 +67,10 @@ class Membrane(Phenomenon):
         if self.broken or particles is None or particles.holder[self._first] != FREE:
             return
         places = particles.position[self._own]
+        if np.array_equal(places, self._places):
+            # A step of the liquid takes several ticks.
+            particles.velocity[self._own] += self._push
+            return
         middle = places.mean(axis=0)
         pull = WOBBLE**2 * (middle + self._rest @ _turn(self._rest, places - middle).T - places)
         mass = particles.mass[self._own]
@@ -78,7 +83,8 @@ class Membrane(Phenomenon):
             state.set_attribute(self._thing.name, "broken", 1.0)
             self._news.append(Detachment(thing=self._index, a=self._index, b=self._index, force=force))
             return
-        particles.velocity[self._own] += MAX_STEP * pull
+        self._places, self._push = places, MAX_STEP * pull
+        particles.velocity[self._own] += self._push
 
 
 def _turn(rest: FloatArray, now: FloatArray) -> FloatArray:
