@@ -153,7 +153,14 @@ def simulate(
 
 def _sense(state: State, controls: Controls, time: float) -> Sense:
     hands, robots = controls.sense()
-    return Sense(time=time, hands=hands, place=state.place, orientation=state.orientation, robots=robots)
+    return Sense(
+        time=time,
+        hands=hands,
+        place=state.place,
+        orientation=state.orientation,
+        pressing=state.pressing,
+        robots=robots,
+    )
 
 
 def _note(command: Command, tick: int, running: dict[Term, list[int]], actions: list[Action]) -> None:

@@ -179,6 +179,19 @@ class State:
             if row >= 0
         ]
 
+    def pressing(self, first: str, second: str) -> float:
+        """Return the normal force between two wholes, their parts included, at the last substep [N]."""
+        things = self.world.scene.things
+
+        def whole(body: int) -> str:
+            thing = things[int(self.body_thing[body])] if self.body_thing[body] >= 0 else None
+            while thing is not None and thing.whole is not None and thing.name not in (first, second):
+                thing = self.world.scene.thing(thing.whole)
+            return thing.name if thing is not None else ""
+
+        wanted = {first, second}
+        return sum(force for _, a, b, force in self.normal_forces() if {whole(a), whole(b)} == wanted)
+
     def contact_forces(self) -> ContactForces:
         """Return the active contacts of the last substep."""
         contact = self.data.contact

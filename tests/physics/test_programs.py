@@ -157,7 +157,7 @@ REFUSED = [
     ("tilt(hand1, 90)", PlanError, r"must be at most 3.142 rad in size, not 90; degrees need a parameter such as"),
     ("tilt(hand1, 1, 30)", PlanError, r"rate of .* must be at most 6 rad/s in size, not 30; degrees need a param"),
     ("lift(hand1, 0.1, 1, 50)", PlanError, r"acceleration of .* must be at most 30 m/s2 in size, not 50"),
-    ("wipe(hand1, egg1, table1, [0.1, 0, 0], 2, 200)", PlanError, "200 N is more than the hand's base has: 150 N"),
+    ("wipe(hand1, egg1, table1, [0.1, 0, 0], 2, 200)", PlanError, "is 200 N, hand1 can do 150 N at most"),
     ("pour(hand1, egg1, table1, 1.5, 1.0, 20)", PlanError, "height 20 m of pour, allowed 0 to 0.5 m"),
     ("pour(hand1, egg1, table1, 1.5, 1.0, 0.02, 20)", PlanError, "offset 20 m of pour, allowed up to 0.5 m"),
     ("pour(hand1, egg1, egg1)", PlanError, "egg1 cannot be poured into itself"),

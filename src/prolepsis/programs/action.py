@@ -16,8 +16,11 @@ from prolepsis.things import Thing
 
 KINDS: Mapping[str, str] = {
     "hand": "name of a gripper",
+    "robot": "name of a robot",
     "object": "name of an object",
+    "part": "where on an object: edge or top",
     "force": "force of each pad [N], a number or a force level",
+    "push": "force on what is in front [N]",
     "length": "[m]",
     "duration": "[s]",
     "speed": "[m/s]",
@@ -26,12 +29,14 @@ KINDS: Mapping[str, str] = {
     "rate": "[rad/s]",
     "count": "[1]",
     "displacement": "list of three lengths along the world's axes [m]",
+    "place": "list of two lengths along the world's axes [m]",
 }
 """What an argument of an action may be, with its unit."""
 
 
 UNITS: Mapping[str, str] = {
     "force": "N",
+    "push": "N",
     "length": "m",
     "duration": "s",
     "speed": "m/s",
@@ -65,7 +70,7 @@ class Parameter:
     name: str
     kind: str
     """One of ``KINDS``."""
-    default: float | None = None
+    default: float | str | None = None
     """Value when the argument is left out; None if it must be given."""
 
 
@@ -81,6 +86,8 @@ class ActionSpec:
     """Called with the scene, the first sense and the arguments by name; yields the commands."""
     check: Callable[..., None] | None = field(default=None, repr=False)
     """Called with the scene and the arguments before anything runs; raises PlanError if it cannot work."""
+    moves: str | None = None
+    """What of the robots it names it moves, ``base`` or ``head``; None for one that moves the hands it names."""
 
     def usage(self) -> str:
         """Return how it is written: ``lift(Hand, Height, Speed = 0.25 m/s)``."""
@@ -88,7 +95,10 @@ class ActionSpec:
         for parameter in self.parameters:
             name = parameter.name[0].upper() + parameter.name[1:]
             unit = KINDS[parameter.kind].strip("[]")
-            shown.append(name if parameter.default is None else f"{name} = {parameter.default:g} {unit}")
+            if isinstance(parameter.default, str):
+                shown.append(f"{name} = {parameter.default}")
+            else:
+                shown.append(name if parameter.default is None else f"{name} = {parameter.default:g} {unit}")
         return f"{self.name}({', '.join(shown)})"
 
 
@@ -97,52 +107,83 @@ ACTIONS: dict[str, ActionSpec] = {}
 
 
 def action(
-    *parameters: Parameter, check: Callable[..., None] | None = None
+    *parameters: Parameter, check: Callable[..., None] | None = None, moves: str | None = None
 ) -> Callable[[Callable[..., Behaviour]], Callable[..., Behaviour]]:
     """Register the decorated generator function as an action of its name; its docstring's first line is for users."""
 
     def register(behave: Callable[..., Behaviour]) -> Callable[..., Behaviour]:
         doc = (behave.__doc__ or "").strip().splitlines()[0]
         ACTIONS[behave.__name__] = ActionSpec(
-            name=behave.__name__, parameters=parameters, doc=doc, behave=behave, check=check
+            name=behave.__name__, parameters=parameters, doc=doc, behave=behave, check=check, moves=moves
         )
         return behave
 
     return register
 
 
+PARTS = ("edge", "top")
+"""Where something may be hit."""
+LISTS = {"displacement": (3, "[0.2, 0, 0.1]"), "place": (2, "[0.5, -0.2]")}
+"""Kinds that are lists: how many numbers, and an example."""
+ROLES = {"hand": "Gripper", "robot": "Robot"}
+"""Role of what an argument may name."""
+OWN = frozenset(ROLES.values())
+"""Roles of what is no object to a plan."""
+
 HAND = Parameter(name="hand", kind="hand")
+ROBOT_NAME = Parameter(name="robot", kind="robot")
 OBJECT = Parameter(name="object", kind="object")
 FORCE = Parameter(name="force", kind="force")
 
 
-def bind_arguments(spec: ActionSpec, term: Term, scene: Scene) -> dict[str, Any]:
-    """Return the arguments of an action by name: things for names, SI numbers for quantities.
+def bind(parameters: tuple[Parameter, ...], term: Term, scene: Scene, usage: str = "") -> dict[str, Any]:
+    """Return the arguments of an action or a condition by name: things for names, SI numbers for quantities.
 
     Raises:
-        PlanError: If an argument is missing, superfluous or of the wrong kind.
+        PlanError: If an argument is missing, superfluous, of the wrong kind, or more than the robot can.
         UnknownNameError: If an object or a force level does not exist.
     """
-    needed = sum(parameter.default is None for parameter in spec.parameters)
-    if not needed <= len(term.args) <= len(spec.parameters):
-        raise PlanError(
-            f"plan: {term} has {len(term.args)} argument{'s' * (len(term.args) != 1)}, needed: {spec.usage()}"
-        )
+    needed = sum(parameter.default is None for parameter in parameters)
+    if not needed <= len(term.args) <= len(parameters):
+        shown = usage or f"{term.functor}({', '.join(each.name.capitalize() for each in parameters)})"
+        raise PlanError(f"plan: {term} has {len(term.args)} argument{'s' * (len(term.args) != 1)}, needed: {shown}")
     bound: dict[str, Any] = {}
-    for k, parameter in enumerate(spec.parameters):
+    for k, parameter in enumerate(parameters):
         if k < len(term.args):
             bound[parameter.name] = _bind(parameter, term.args[k], term, scene)
         else:
             bound[parameter.name] = parameter.default
+    _refuse_beyond(parameters, bound, term)
     return bound
+
+
+def _refuse_beyond(parameters: tuple[Parameter, ...], bound: Mapping[str, Any], term: Term) -> None:
+    """Refuse what is more than the hand can that an action names."""
+    for hand in (each for each in bound.values() if isinstance(each, Thing) and "Gripper" in each.roles):
+        for parameter in parameters:
+            limit = hand.quantities.get(LIMITS.get(parameter.kind, ""))
+            if limit is not None and bound[parameter.name] > limit:
+                unit = UNITS[parameter.kind]
+                raise PlanError(
+                    f"plan: {parameter.name} of {term} is {bound[parameter.name]:g} {unit}, "
+                    f"{hand.name} can do {limit:.4g} {unit} at most"
+                )
+
+
+LIMITS: Mapping[str, str] = {"force": "maxForce", "push": "maxPush", "speed": "maxSpeed", "acceleration": "maxAcceleration"}
+"""Quantity of a gripper that says how much of a kind it can."""
 
 
 def _bind(parameter: Parameter, value: Value, term: Term, scene: Scene) -> Any:
     where = f"plan: {parameter.name} of {term}"
     if isinstance(value, Variable):
         raise PlanError(f"{where} has no value; give parameter {value.name} one")
-    if parameter.kind in ("hand", "object"):
+    if parameter.kind in ("hand", "robot", "object"):
         return _bind_thing(parameter, value, where, scene)
+    if parameter.kind == "part":
+        if value not in PARTS:
+            raise PlanError(f"{where} must be one of {', '.join(PARTS)}, not {value}")
+        return value
     if parameter.kind == "displacement":
         if isinstance(value, tuple) and len(value) == 3 and all(isinstance(v, int | float) for v in value):
             return tuple(_finite(float(v), where) for v in value if isinstance(v, int | float))
@@ -167,7 +208,8 @@ def _bind(parameter: Parameter, value: Value, term: Term, scene: Scene) -> Any:
 def _bind_thing(parameter: Parameter, value: Value, where: str, scene: Scene) -> Thing:
     if not isinstance(value, str):
         raise PlanError(f"{where} must be the {KINDS[parameter.kind]}, not {value}")
-    choices = [t for t in scene.things if t.whole is None and ("Gripper" in t.roles) == (parameter.kind == "hand")]
+    role = ROLES.get(parameter.kind)
+    choices = [t for t in scene.things if t.whole is None and (role in t.roles if role else not t.roles & OWN)]
     for thing in choices:
         if thing.name == value:
             return thing

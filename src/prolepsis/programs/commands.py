@@ -93,7 +93,14 @@ class End:
     evidence: Mapping[str, float | str] = field(default_factory=dict[str, "float | str"])
 
 
-Command = HandTarget | ArmTarget | JointTarget | CloseGripper | OpenGripper | Begin | End
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Note:
+    """What an action has measured, for its event."""
+
+    evidence: Mapping[str, float | str]
+
+
+Command = HandTarget | ArmTarget | JointTarget | CloseGripper | OpenGripper | Begin | Note | End
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -154,6 +161,11 @@ class ActionFailedError(Exception):
         self.detail = detail
 
 
+def standing_still() -> Triple:
+    """Return no velocity."""
+    return (0.0, 0.0, 0.0)
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class HandSense:
     """What a hand knows of itself."""
@@ -172,6 +184,8 @@ class HandSense:
     """Commanded force of each pad [N], 0 when it does not close."""
     load: Callable[[], Triple]
     """Force with which the servos hold against what pulls or pushes the hand, world axes [N]; computed when asked."""
+    velocity: Callable[[], Triple] = standing_still
+    """Measured velocity of the hand's frame in the world [m/s]; computed when asked."""
     pad_force: float
     """The smaller of the two pads' normal forces [N]."""
     motion: int
@@ -208,6 +222,12 @@ class RobotSense:
     """Direction in which the trunk faces, from the world's x axis [rad]."""
 
 
+def no_force(first: str, second: str) -> float:
+    """Return that two things do not touch."""
+    del first, second
+    return 0.0
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Sense:
     """What a program may know at a tick."""
@@ -220,6 +240,8 @@ class Sense:
     """Position of a thing in the world [m], as a perfect camera would see it."""
     orientation: Callable[[str], Quaternion]
     """Unit quaternion (w, x, y, z) of a thing in the world, seen likewise."""
+    pressing: Callable[[str, str], float] = no_force
+    """Normal force between two things [N], as the skin or what is held tells it."""
     robots: Mapping[str, RobotSense] = field(default_factory=dict[str, RobotSense])
     """Each robot's sense of its other joints."""
 

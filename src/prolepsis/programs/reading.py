@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import prolepsis.programs.actions as _actions
 from prolepsis.errors import PlanError, UnknownNameError
-from prolepsis.programs.action import ACTIONS, KINDS, UNITS, bind_arguments
-from prolepsis.programs.commands import ActionFailedError, Begin, Behaviour, Command, End, Sense
+from prolepsis.programs.action import ACTIONS, KINDS, UNITS, bind
+from prolepsis.programs.combining import Maker, all_together, in_sequence, repeated
+from prolepsis.programs.conditions import read_condition
+from prolepsis.programs.nesting import as_event
 from prolepsis.programs.program import Program
 from prolepsis.scene.scene import Scene
-from prolepsis.terms import Term, Value, Variable
+from prolepsis.terms import Term, Value, Variable, format_value
+from prolepsis.things import Thing
 
 COMBINATORS = {
     "sequence": "one action after the other: sequence([A, B, ...])",
     "together": "all at once; ends when the last one ends: together([A, B, ...])",
+    "repeat_until": "again and again until a condition holds: repeat_until(touching(egg1, table1), A)",
 }
 """What joins actions."""
-
-Maker = Callable[[Sense], Behaviour]
 
 _ = _actions
 
@@ -77,113 +79,57 @@ def _read(plan: Value, scene: Scene) -> Maker:
     spec = ACTIONS.get(plan.functor)
     if spec is None:
         raise UnknownNameError.of("action", plan.functor, [*ACTIONS, *COMBINATORS], "plan")
-    arguments = bind_arguments(spec, plan, scene)
+    arguments = bind(spec.parameters, plan, scene, spec.usage())
     if spec.check is not None:
         spec.check(scene, **arguments)
 
-    def begin(sense: Sense) -> Behaviour:
-        sense = yield from _with(Begin(term=plan), spec.behave(scene, sense, **arguments), sense)
-        return sense
-
-    return begin
-
-
-def _with(begin: Begin, behaviour: Behaviour, sense: Sense) -> Behaviour:
-    """Run an action between its beginning and its end."""
-    greatest: dict[str, float] = {}
-    commands: tuple[Command, ...] = (begin,)
-    first = True
-    while True:
-        try:
-            made = next(behaviour) if first else behaviour.send(sense)
-        except StopIteration as ended:
-            sense = ended.value
-            break
-        except ActionFailedError as failed:
-            outcome = {"reason": failed.detail}
-            yield (*commands, End(term=begin.term, outcome=failed.outcome, evidence={**greatest, **outcome}))
-            raise
-        first = False
-        sense = yield (*commands, *made)
-        commands = ()
-        for name, hand in sense.hands.items():
-            if name in begin.term.args:
-                greatest["peak_pad_force"] = max(greatest.get("peak_pad_force", 0.0), hand.pad_force)
-    sense = yield (*commands, End(term=begin.term, evidence=dict(greatest)))
-    return sense
+    return lambda sense: as_event(plan, spec.behave(scene, sense, **arguments), sense)
 
 
 def _read_combinator(plan: Term, scene: Scene) -> Maker:
+    if plan.functor == "repeat_until":
+        if len(plan.args) != 2:
+            raise PlanError(f"plan: {plan.functor} needs a condition and an action: {COMBINATORS[plan.functor]}")
+        return repeated(read_condition(plan.args[0], scene), _read(plan.args[1], scene), format_value(plan.args[0]))
     if len(plan.args) != 1 or not isinstance(plan.args[0], tuple) or not plan.args[0]:
         raise PlanError(f"plan: {plan.functor} needs a list of at least one action: {COMBINATORS[plan.functor]}")
     makers = [_read(part, scene) for part in plan.args[0]]
-    if plan.functor == "together":
-        _refuse_shared_hands(plan.args[0], scene)
-    return _in_sequence(makers) if plan.functor == "sequence" else _all_together(makers)
+    if plan.functor == "sequence":
+        return in_sequence(makers)
+    _refuse_shared_joints(plan.args[0], scene)
+    return all_together(makers)
 
 
-def _refuse_shared_hands(parts: tuple[Value, ...], scene: Scene) -> None:
-    """Refuse actions that move the same hand at the same time."""
-    hands = {thing.name for thing in scene.things if "Gripper" in thing.roles}
-    taken: set[str] = set()
+def _refuse_shared_joints(parts: tuple[Value, ...], scene: Scene) -> None:
+    """Refuse actions that move the same joints at the same time."""
+    taken: dict[str, Value] = {}
     for part in parts:
-        shared = _names(part) & hands & taken
+        moved = _moved(part, scene)
+        shared = sorted(moved & {*taken})
         if shared:
             raise PlanError(
-                f"plan: two actions done together command {', '.join(sorted(shared))}; put them in a sequence"
+                f"plan: two actions done together command {', '.join(shared)}: {taken[shared[0]]} and {part}; "
+                "put them in a sequence"
             )
-        taken |= _names(part) & hands
+        taken |= dict.fromkeys(moved, part)
 
 
-def _names(plan: Value) -> set[str]:
-    """Return all atoms in a term."""
-    if isinstance(plan, str):
-        return {plan}
-    parts = plan if isinstance(plan, tuple) else plan.args if isinstance(plan, Term) else ()
-    return {name for part in parts for name in _names(part)}
+def _moved(plan: Value, scene: Scene) -> set[str]:
+    """Return what a plan moves: hands, and bases and heads of robots."""
+    if isinstance(plan, tuple):
+        return {name for part in plan for name in _moved(part, scene)}
+    if not isinstance(plan, Term):
+        return set()
+    spec = ACTIONS.get(plan.functor)
+    if spec is None:
+        return {name for part in plan.args for name in _moved(part, scene)}
+    arguments = bind(spec.parameters, plan, scene, spec.usage())
+    return {
+        each.name if spec.moves is None else f"the {spec.moves} of {each.name}"
+        for each in arguments.values()
+        if isinstance(each, Thing) and ("Gripper" in each.roles) == (spec.moves is None) and (each.roles & MOVING)
+    }
 
 
-def _in_sequence(makers: list[Maker]) -> Maker:
-    def begin(sense: Sense) -> Behaviour:
-        ended: tuple[Command, ...] = ()
-        for maker in makers:
-            behaviour, fresh = maker(sense), True
-            while True:
-                try:
-                    made = next(behaviour) if fresh else behaviour.send(sense)
-                except StopIteration as stopped:
-                    sense = stopped.value
-                    break
-                fresh = False
-                # That an action has ended takes no time: the next one begins at the same tick.
-                if made and all(isinstance(command, End) for command in made):
-                    ended += made
-                    continue
-                sense = yield (*ended, *made)
-                ended = ()
-        if ended:
-            sense = yield ended
-        return sense
-
-    return begin
-
-
-def _all_together(makers: list[Maker]) -> Maker:
-    def begin(sense: Sense) -> Behaviour:
-        fresh = [maker(sense) for maker in makers]
-        going: list[Behaviour] = []
-        while fresh or going:
-            commands: list[Command] = []
-            still: list[Behaviour] = []
-            for behaviour in (*going, *fresh):
-                try:
-                    commands += behaviour.send(sense) if behaviour in going else next(behaviour)
-                    still.append(behaviour)
-                except StopIteration:
-                    pass
-            going, fresh = still, []
-            if going:
-                sense = yield tuple(commands)
-        return sense
-
-    return begin
+MOVING = frozenset({"Gripper", "Robot"})
+"""What actions move by its own joints."""

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from prolepsis.engine import mujoco
 from prolepsis.programs.commands import ArmTarget, Command, HandSense, HandTarget
 from prolepsis.robots.arm_way import ArmWays
 from prolepsis.robots.gripper_control import Drive, GripperControl
@@ -173,6 +174,7 @@ class ArmHand:
             opening=self.gripper.opening,
             grip=self.gripper.command,
             load=self._load,
+            velocity=self._velocity,
             pad_force=self.gripper.pad_force,
             motion=self.gripper.motion,
             stiffness=self._stiffness,
@@ -180,6 +182,11 @@ class ArmHand:
             bump=self._bump,
             arm=self.ways,
         )
+
+    def _velocity(self) -> Triple:
+        result = np.zeros(6)
+        mujoco.mj_objectVelocity(self._model, self._data, mujoco.mjtObj.mjOBJ_SITE, self._tool, result, 0)
+        return _triple(result[3:])
 
     def _load(self) -> Triple:
         # A force at the hand displaces it by the servos' compliance; what it is displaced by tells the force.

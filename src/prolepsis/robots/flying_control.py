@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from prolepsis.engine import mujoco
 from prolepsis.programs.commands import HandSense, HandTarget
 from prolepsis.robots.gap import Gap
 from prolepsis.robots.gripper_control import Drive, GripperControl
@@ -45,7 +46,7 @@ class FlyingHand:
         self._version = state.version
         self.gripper.bind(state)
         model: Any = state.model
-        self._data = state.data
+        self._model, self._data = model, state.data
         joints = ("x", "y", "z", "yaw", "pitch", "roll")
         self._servos = np.array([model.actuator(f"{self.name}/{joint}").id for joint in joints])
         self._palm = int(model.body(f"{self.name}/palm").id)
@@ -81,10 +82,16 @@ class FlyingHand:
             opening=self.gripper.opening,
             grip=self.gripper.command,
             load=self._load,
+            velocity=self._velocity,
             pad_force=self.gripper.pad_force,
             motion=self.gripper.motion,
             stiffness=self._stiffness,
         )
+
+    def _velocity(self) -> Triple:
+        result = np.zeros(6)
+        mujoco.mj_objectVelocity(self._model, self._data, mujoco.mjtObj.mjOBJ_XBODY, self._palm, result, 0)
+        return (float(result[3]), float(result[4]), float(result[5]))
 
     def _load(self) -> Triple:
         # The slides of the base lie along the world's axes.

@@ -88,6 +88,7 @@ class Hand:
                 "opening": opening,
                 "maxOpening": self.max_opening,
                 "maxForce": self.max_force,
+                "maxPush": self.base_force,
                 "maxAcceleration": self.max_acceleration,
                 "friction": friction,
             },

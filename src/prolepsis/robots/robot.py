@@ -54,6 +54,8 @@ class Arm:
     joints: tuple[Joint, ...]
     """From the trunk outwards."""
     gripper: ParallelGripper
+    max_push: float
+    """Greatest force of the gripper on what is in front of it that a plan may ask for [N]."""
     max_speed: float
     """Greatest speed of the gripper that a plan may ask for [m/s]."""
     max_acceleration: float

@@ -75,6 +75,7 @@ def robot_things(
             "opening": openings[arm.name],
             "maxOpening": read.gaps[arm.name].greatest,
             "maxForce": arm.gripper.max_force,
+            "maxPush": arm.max_push,
             "maxSpeed": arm.max_speed,
             "maxAcceleration": arm.max_acceleration,
         }

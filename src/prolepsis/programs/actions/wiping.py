@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from prolepsis.errors import PlanError
 from prolepsis.programs.action import HAND, OBJECT, Parameter, action
 from prolepsis.programs.actions.motion import TICK, line, travel
 from prolepsis.programs.commands import Behaviour, HandTarget, Sense
-from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.scene.scene import Scene
 from prolepsis.things import Thing, Triple
 
@@ -20,21 +18,14 @@ LIFT_SPEED = 0.05
 """With which the hand lets go of the surface [m/s]."""
 
 
-def _can_press(scene: Scene, *, force: float, **_: object) -> None:
-    del scene
-    if force > ROBOT.base_force:
-        raise PlanError(f"plan: a force of {force:g} N is more than the hand's base has: {ROBOT.base_force:g} N")
-
-
 @action(
     HAND,
     OBJECT,
     Parameter(name="surface", kind="object"),
     Parameter(name="displacement", kind="displacement"),
     Parameter(name="strokes", kind="count", default=2.0),
-    Parameter(name="force", kind="force", default=1.0),
+    Parameter(name="force", kind="push", default=1.0),
     Parameter(name="speed", kind="speed", default=0.15),
-    check=_can_press,
 )
 def wipe(
     scene: Scene,

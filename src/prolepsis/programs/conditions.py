@@ -1,0 +1,77 @@
+"""What a plan may wait for: conditions on what a robot senses, for ``repeat_until``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from prolepsis.errors import PlanError, UnknownNameError
+from prolepsis.programs.action import FORCE, HAND, OBJECT, Parameter, bind
+from prolepsis.programs.commands import Sense
+from prolepsis.scene.scene import Scene
+from prolepsis.terms import Term, Value
+from prolepsis.things import Thing
+
+Condition = Callable[[Sense], bool]
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class ConditionSpec:
+    """One kind of condition."""
+
+    parameters: tuple[Parameter, ...]
+    doc: str
+    """When it holds, in a line."""
+    holds: Callable[..., bool]
+    """Called with what is sensed and the arguments by name."""
+
+
+def _touching(sense: Sense, *, object: Thing, other: Thing) -> bool:
+    return sense.pressing(object.name, other.name) > 0.0
+
+
+def _pressed(sense: Sense, *, object: Thing, other: Thing, force: float) -> bool:
+    return sense.pressing(object.name, other.name) >= force
+
+
+def _holding(sense: Sense, *, hand: Thing) -> bool:
+    return sense.hands[hand.name].pad_force > 0.0
+
+
+def _above(sense: Sense, *, object: Thing, height: float) -> bool:
+    return sense.place(object.name)[2] > height
+
+
+OTHER = Parameter(name="other", kind="object")
+CONDITIONS = {
+    "touching": ConditionSpec(parameters=(OBJECT, OTHER), doc="The two touch.", holds=_touching),
+    "pressed": ConditionSpec(
+        parameters=(OBJECT, OTHER, FORCE), doc="The two are pressed together with at least a force.", holds=_pressed
+    ),
+    "holding": ConditionSpec(parameters=(HAND,), doc="Both pads of the hand feel something.", holds=_holding),
+    "above": ConditionSpec(
+        parameters=(OBJECT, Parameter(name="height", kind="length")),
+        doc="The object's frame is higher than a height over the ground.",
+        holds=_above,
+    ),
+}
+"""All conditions by name; ``not(C)`` turns one round."""
+
+
+def read_condition(value: Value, scene: Scene) -> Condition:
+    """Return the condition that a term describes.
+
+    Raises:
+        PlanError: If it is none, or has wrong arguments.
+        UnknownNameError: If there is no such condition or object.
+    """
+    if not isinstance(value, Term):
+        raise PlanError(f"plan: {value} is no condition; one looks like touching(egg1, table1)")
+    if value.functor == "not" and len(value.args) == 1:
+        inner = read_condition(value.args[0], scene)
+        return lambda sense: not inner(sense)
+    spec = CONDITIONS.get(value.functor)
+    if spec is None:
+        raise UnknownNameError.of("condition", value.functor, [*CONDITIONS, "not"], "plan")
+    arguments = bind(spec.parameters, value, scene)
+    return lambda sense: spec.holds(sense, **arguments)
