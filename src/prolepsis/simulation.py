@@ -143,6 +143,7 @@ def simulate(
         poses=poses,
         carrier=carriers,
         contacts=recorder.contact_columns(TICK),
+        bonds=recorder.bond_columns(),
         detachments=_detachment_columns(detachments),
         channels=channels.columns(),
         actions=tuple(sorted((a for a in actions if a.end > a.start), key=lambda a: (a.start, -a.end, str(a.term)))),

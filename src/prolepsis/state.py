@@ -15,6 +15,10 @@ from prolepsis.things import FloatArray, IntArray, Quaternion, Triple
 
 FEW_CONTACTS = 16
 """Up to so many contacts, plain lists are faster than arrays."""
+JOINT = "joint:"
+"""Names of joints at points begin so."""
+JOINT_SOLREF = (0.002, 1.0)
+"""They give as little as the longest substep allows."""
 
 
 @dataclass(kw_only=True, slots=True)
@@ -31,6 +35,18 @@ class ContactForces:
     """Force on the second geom's body, world frame [N], shape (c, 3)."""
     points: FloatArray
     """World frame [m], shape (c, 3)."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class PointJoint:
+    """Two bodies that are held together at a point."""
+
+    first: str
+    second: str
+    place_on_first: FloatArray
+    """The point in the frame of the first body [m], shape (3,)."""
+    place_on_second: FloatArray
+    """The point in the frame of the second body [m], shape (3,)."""
 
 
 @dataclass(kw_only=True)
@@ -55,6 +71,8 @@ class State:
     """What controllers have changed: (thing, attribute) to its value."""
     particles: ParticleState | None = None
     """The particles of all liquids, if there are any."""
+    bonds: set[tuple[int, int]] = field(default_factory=set[tuple[int, int]])
+    """What sticks to what now: indices of the holding and the held thing."""
     _body_of_geom: list[int] = field(default_factory=list[int])
     _bodies_version: int = -1
     _forces: list[tuple[int, int, int, float]] = field(default_factory=list[tuple[int, int, int, float]])
@@ -253,11 +271,7 @@ class State:
             whole = np.flatnonzero(self.carrier == old_thing)
             self.carrier[whole] = -1
         self.spec.option.impratio = DEBRIS_IMPEDANCE_RATIO
-        # Rebuilding starts the count of warnings again.
-        self.warnings += int(self.data.warning.number.sum())
-        self.model, self.data = self.spec.recompile(self.model, self.data)
-        self.version += 1
-        self.refresh()
+        self._rebuild()
         for group in groups:
             joint = self.data.joint(things[group[0]].name)
             pose = poses[group[0]]
@@ -269,6 +283,49 @@ class State:
             mujoco.mju_rotVecQuat(local, velocity[:3], inverse)
             joint.qvel[3:] = local
         mujoco.mj_forward(self.model, self.data)
+
+    def join(self, joints: Sequence[PointJoint]) -> list[int]:
+        """Replace the joints at points between bodies, and return their numbers."""
+        for known in list(self.spec.equalities):
+            if known.name.startswith(JOINT):
+                self.spec.delete(known)
+        for k, joint in enumerate(joints):
+            self.spec.add_equality(
+                name=f"{JOINT}{k}",
+                type=mujoco.mjtEq.mjEQ_CONNECT,
+                name1=joint.first,
+                name2=joint.second,
+                objtype=mujoco.mjtObj.mjOBJ_BODY,
+                data=[0.0] * 12,
+                solref=list(JOINT_SOLREF),
+            )
+        self._rebuild()
+        numbers = [int(self.model.equality(f"{JOINT}{k}").id) for k in range(len(joints))]
+        for number, joint in zip(numbers, joints, strict=True):
+            self.move_joint(number, joint.place_on_first, joint.place_on_second)
+        mujoco.mj_forward(self.model, self.data)
+        return numbers
+
+    def move_joint(self, number: int, place_on_first: FloatArray, place_on_second: FloatArray) -> None:
+        """Let a joint at a point hold other points of its bodies together, each in the frame of its body [m]."""
+        # Compiling puts the second point where it would be in the first posture.
+        self.model.eq_data[number, :3], self.model.eq_data[number, 3:6] = place_on_first, place_on_second
+
+    def joint_forces(self) -> dict[int, FloatArray]:
+        """Return the force of each active joint at a point on its first body, world frame [N], by its number."""
+        data = self.data
+        rows = int(data.ne)
+        numbers, forces = data.efc_id[:rows], data.efc_force[:rows]
+        # A joint at a point has three rows of its own.
+        return {int(number): forces[numbers == number] for number in np.unique(numbers)}
+
+    def _rebuild(self) -> None:
+        """Compile the model anew from the spec; the rest of the state is carried over."""
+        # Rebuilding starts the count of warnings again.
+        self.warnings += int(self.data.warning.number.sum())
+        self.model, self.data = self.spec.recompile(self.model, self.data)
+        self.version += 1
+        self.refresh()
 
 
 def _carrier(world: World, index: Mapping[str, int], i: int) -> int:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from prolepsis.engine import mujoco
-from prolepsis.log import Contacts
+from prolepsis.log import Bonds, Contacts
 from prolepsis.monitors.touching import empty_contacts
 from prolepsis.state import State
 from prolepsis.things import FloatArray, IntArray
@@ -35,6 +35,10 @@ class Recorder:
     contacts: list[tuple[int, int, float, IntArray, IntArray, FloatArray, FloatArray, FloatArray]] = field(
         default_factory=list[tuple[int, int, float, IntArray, IntArray, FloatArray, FloatArray, FloatArray]]
     )
+    bonds: dict[tuple[int, int], list[tuple[int, int]]] = field(
+        default_factory=dict[tuple[int, int], list[tuple[int, int]]]
+    )
+    """What stuck to what, from which tick to before which."""
     _seen: int = -1
 
     def note_version(self, state: State) -> None:
@@ -77,6 +81,10 @@ class Recorder:
         """Copy the poses at the start of a tick."""
         # After a step MuJoCo's poses are those before it; bring them up to the present state.
         mujoco.mj_kinematics(state.model, state.data)
+        for pair in state.bonds:
+            now, runs = len(self.poses), self.bonds.setdefault(pair, [])
+            start = runs.pop()[0] if runs and runs[-1][1] == now else now
+            runs.append((start, now + 1))
         self.poses.append((len(self.versions) - 1, state.data.xpos.copy(), state.data.xquat.copy()))
 
     def pose_columns(self) -> tuple[FloatArray, IntArray]:
@@ -103,6 +111,12 @@ class Recorder:
             carriers[ticks] = version.carrier
             last = block[-1]
         return poses, carriers
+
+    def bond_columns(self) -> Bonds:
+        """Return one row for each time that two things stuck together."""
+        rows = sorted((start, end, *pair) for pair, runs in self.bonds.items() for start, end in runs)
+        start, end, a, b = np.array(rows, dtype=np.int64).reshape(-1, 4).T
+        return Bonds(a=a, b=b, start=start, end=end)
 
     def contact_columns(self, dt: float) -> Contacts:
         """Return one row for each pair of geoms and tick: forces averaged over the tick of length ``dt`` [s]."""

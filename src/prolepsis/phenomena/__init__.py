@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from prolepsis.phenomena import absorbing, breaking, flowing, membrane, opening, wetting
+from prolepsis.phenomena import absorbing, breaking, flowing, membrane, opening, sticking, wetting
 from prolepsis.phenomena.phenomenon import Attach, Detachment, Draw, Phenomenon
 
 PHENOMENA: tuple[Attach, ...] = (
@@ -12,6 +12,7 @@ PHENOMENA: tuple[Attach, ...] = (
     membrane.attach,
     absorbing.attach,
     wetting.attach,
+    sticking.attach,
 )
 """All phenomena in the order in which they run; a later one may read what an earlier one did."""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from prolepsis.robots.hand import rotate
-from prolepsis.shapes.egg import Shell, ellipsoid_shell
+from prolepsis.shapes.egg import Shell, curvature_radius, ellipsoid_shell
 from prolepsis.things import FloatArray, Geom, Shape, Thing, Triple
 
 CLEARANCE = 0.99
@@ -45,7 +45,11 @@ def shell_pieces(egg: Thing, shell: Thing) -> tuple[Thing, ...]:
                 mass=float(shell.mass * area / parts.areas.sum()),
                 whole=shell.name,
                 roles=frozenset({"Piece"}),
-                quantities={"friction": shell.quantities["friction"], "area": float(area)},
+                quantities={
+                    "friction": shell.quantities["friction"],
+                    "area": float(area),
+                    "radius": curvature_radius(np.asarray(egg.shape.geoms[0].size), centre),
+                },
             )
         )
     return tuple(made)

@@ -58,6 +58,11 @@ def ellipsoid_normals(points: FloatArray, semi_axes: FloatArray) -> FloatArray:
     return gradient / np.linalg.norm(gradient, axis=1, keepdims=True)
 
 
+def curvature_radius(semi_axes: FloatArray, point: FloatArray) -> float:
+    """Return the radius of the sphere with the Gaussian curvature that an ellipsoid has at a point on it [m]."""
+    return float(np.prod(semi_axes) * ((point / semi_axes**2) ** 2).sum())
+
+
 @lru_cache(maxsize=8)
 def ellipsoid_shell(semi_axes: tuple[float, float, float], piece_count: int, thickness: float) -> Shell:
     """Return the shell of an ellipsoid, cut into equally large convex pieces.

@@ -1,0 +1,141 @@
+"""What holds two things together where they stick: a joint at a point that gives way when it is pulled too hard.
+
+Pressing them together is left to contact. A pull out of the holder's surface or along it that is stronger than the hold
+takes them apart, unless it is but a jolt.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from prolepsis.fields.solids import matrix
+from prolepsis.phenomena.phenomenon import Detachment, Phenomenon
+from prolepsis.state import PointJoint, State
+from prolepsis.things import FloatArray
+
+JOLT = 0.005
+"""A pull counts as its mean over this time [s]: what sticks takes some milliseconds to come off."""
+
+
+@dataclass(kw_only=True, slots=True)
+class Hold:
+    """One thing that sticks to another."""
+
+    holder: int
+    """Index of the thing that holds."""
+    held: int
+    """Index of the thing that is held."""
+    place: FloatArray
+    """Point where it sticks, in the frame of the held [m], shape (3,)."""
+    normal: FloatArray
+    """Unit vector out of the holder's surface there, in the holder's frame, shape (3,)."""
+    strength: float
+    """Pull at which it comes off at the start [N]."""
+    lasting: float = math.inf
+    """Time in which it loses all but a third of its strength [s]."""
+    since: float = 0.0
+    """When it began [s]."""
+    pull: float = 0.0
+    """Mean pull of late [N]."""
+    place_on_holder: FloatArray | None = None
+    """The same point in the frame of the holder [m], shape (3,); None until they have been joined."""
+
+    def strength_at(self, time: float) -> float:
+        """Return the pull that it bears at a time [N]."""
+        return self.strength * math.exp(-(time - self.since) / self.lasting)
+
+
+class Adhesion(Phenomenon):
+    """The controller of what sticks together, whatever makes it stick."""
+
+    def __init__(self) -> None:
+        """Begin with nothing that sticks."""
+        self.holds: list[Hold] = []
+        self._joined: list[Hold] = []
+        self._numbers: list[int] = []
+        self._version = -1
+
+    def stick(self, state: State, holds: Sequence[Hold]) -> None:
+        """Let things stick together where they are now."""
+        if holds:
+            self.holds += holds
+            self._join(state)
+
+    def act(self, state: State) -> list[Detachment]:
+        """Take apart what is pulled too hard; nothing breaks by that."""
+        if not self.holds:
+            return []
+        if self._version != state.version:
+            # Something has fallen apart, and with its body the joints are gone.
+            self._join(state)
+            return []
+        if not self._joined:
+            return []
+        time = float(state.data.time)
+        share = min(1.0, float(state.model.opt.timestep) / JOLT)
+        forces = state.joint_forces()
+        for number, hold in enumerate(self._joined):
+            if not state.data.eq_active[self._numbers[number]]:
+                continue
+            out = self._turn(state, hold.holder) @ hold.normal
+            force = forces[self._numbers[number]]
+            along = float(force @ out)
+            # What presses them together is no pull.
+            pull = math.hypot(max(along, 0.0), float(np.linalg.norm(force - along * out)))
+            hold.pull += share * (pull - hold.pull)
+            if hold.pull > hold.strength_at(time):
+                state.data.eq_active[self._numbers[number]] = 0
+                self.holds.remove(hold)
+        self._report(state)
+        return []
+
+    def renew(self, state: State, hold: Hold) -> None:
+        """Let a hold be where the two things are now, without strain."""
+        hold.place_on_holder = self._seen_from_holder(state, hold)
+        if hold in self._joined:
+            state.move_joint(self._numbers[self._joined.index(hold)], *self._places(state, hold))
+
+    def _join(self, state: State) -> None:
+        """Make the joints anew."""
+        for hold in self.holds:
+            if hold.place_on_holder is None:
+                hold.place_on_holder = self._seen_from_holder(state, hold)
+        self._joined = [hold for hold in self.holds if state.carrier[hold.holder] != state.carrier[hold.held]]
+        joints: list[PointJoint] = []
+        for hold in self._joined:
+            first, second = (self._carrier(state, thing) for thing in (hold.holder, hold.held))
+            place, other = self._places(state, hold)
+            joints.append(PointJoint(first=first, second=second, place_on_first=place, place_on_second=other))
+        self._numbers = state.join(joints)
+        self._version = state.version
+        self._report(state)
+
+    def _report(self, state: State) -> None:
+        """Tell the log what sticks to what."""
+        pairs = {(int(state.carrier[hold.holder]), int(state.carrier[hold.held])) for hold in self.holds}
+        state.bonds = {(holder, held) for holder, held in pairs if holder != held}
+
+    def _places(self, state: State, hold: Hold) -> tuple[FloatArray, FloatArray]:
+        """Return the point of a hold in the frames of the two bodies [m]."""
+        assert hold.place_on_holder is not None
+        first, second = state.offsets[hold.holder], state.offsets[hold.held]
+        return (
+            first[:3] + matrix(first[3:]) @ hold.place_on_holder,
+            second[:3] + matrix(second[3:]) @ hold.place,
+        )
+
+    def _carrier(self, state: State, thing: int) -> str:
+        return state.world.scene.things[int(state.carrier[thing])].name
+
+    def _turn(self, state: State, thing: int) -> FloatArray:
+        return state.data.body(self._carrier(state, thing)).xmat.reshape(3, 3) @ matrix(state.offsets[thing, 3:])
+
+    def _seen_from_holder(self, state: State, hold: Hold) -> FloatArray:
+        things = state.world.scene.things
+        held, holder = state.pose(things[hold.held].name), state.pose(things[hold.holder].name)
+        world = held[:3] + matrix(held[3:]) @ hold.place
+        return (world - holder[:3]) @ matrix(holder[3:])
