@@ -62,9 +62,11 @@ def flowing_onto(observation: Observation) -> Iterator[Fact]:
     seen = observation.of(places)
     if seen is None:
         return
+    at = _whereabouts(observation, seen)
+    if (at == at[0]).all():
+        return
     from prolepsis.fluents.kernels.streams import arrivals
 
-    at = _whereabouts(observation, seen)
     came = arrivals(at)
     onto = at[came[:, 0], came[:, 1]]
     units: list[int] = sorted(set(onto.tolist()))

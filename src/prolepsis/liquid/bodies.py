@@ -158,7 +158,7 @@ def _held(state: State) -> set[int]:
     contact = state.data.contact
     active = contact.efc_address >= 0
     pressed = state.data.efc_force[contact.efc_address[active]] > 0.0
-    first, second = state.model.geom_bodyid[contact.geom[active][pressed]].reshape(-1, 2).T
-    mixed = jointed[first] != jointed[second]
-    held: IntArray = np.where(jointed[first], second, first)[mixed]
+    bodies: IntArray = state.model.geom_bodyid[contact.geom[active][pressed]].reshape(-1, 2)
+    is_jointed: BoolArray = jointed[bodies]
+    held: IntArray = bodies[~is_jointed & is_jointed[:, ::-1]]
     return set(held.tolist())

@@ -182,12 +182,19 @@ class Recorder:
 def _rotated(quaternions: FloatArray, vectors: FloatArray) -> FloatArray:
     """Return ``vectors``, shape (n, 3), turned by unit ``quaternions``, shape (T, n, 4)."""
     w, axis = quaternions[..., :1], quaternions[..., 1:]
-    twice = 2 * np.cross(axis, vectors)
-    return vectors + w * twice + np.cross(axis, twice)
+    twice = 2 * _cross(axis, vectors)
+    return vectors + w * twice + _cross(axis, twice)
+
+
+def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Return cross products of vectors along the last axis; numpy's own takes three times as long."""
+    x, y, z = a[..., 0], a[..., 1], a[..., 2]
+    u, v, w = b[..., 0], b[..., 1], b[..., 2]
+    return np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=-1)
 
 
 def _product(outer: FloatArray, inner: FloatArray) -> FloatArray:
     """Return quaternion products, shape (T, n, 4), of ``outer``, shape (T, n, 4), and ``inner``, shape (n, 4)."""
     w = outer[..., 0] * inner[..., 0] - (outer[..., 1:] * inner[..., 1:]).sum(axis=-1)
-    axis = outer[..., :1] * inner[..., 1:] + inner[..., :1] * outer[..., 1:] + np.cross(outer[..., 1:], inner[..., 1:])
+    axis = outer[..., :1] * inner[..., 1:] + inner[..., :1] * outer[..., 1:] + _cross(outer[..., 1:], inner[..., 1:])
     return np.concatenate([w[..., None], axis], axis=-1)

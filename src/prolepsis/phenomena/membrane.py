@@ -18,7 +18,7 @@ from prolepsis.log import FREE
 from prolepsis.phenomena.phenomenon import Detachment, Draw, Phenomenon
 from prolepsis.scene.world import MAX_STEP
 from prolepsis.state import State
-from prolepsis.things import FloatArray, Thing
+from prolepsis.things import FloatArray, IntArray, Thing
 
 WOBBLE = 40.0
 """Angular frequency with which a yolk quivers [rad/s]: under its weight it sinks by g / w^2, a fifth of its height."""
@@ -43,8 +43,10 @@ class Membrane(Phenomenon):
         assert state.particles is not None
         self._thing = thing
         self._index = state.world.scene.index(thing.name)
-        self._own = np.flatnonzero(state.particles.stuff == self._index)
-        self._first = int(self._own[0])
+        own = np.flatnonzero(state.particles.stuff == self._index)
+        self._first, last = int(own[0]), int(own[-1])
+        # As a slice they are reached ten times faster.
+        self._own: IntArray | slice = slice(self._first, last + 1) if len(own) == last + 1 - self._first else own
         places = state.particles.position[self._own]
         self._rest = places - places.mean(axis=0)
         self._places, self._push = np.zeros_like(places), np.zeros_like(places)
@@ -66,7 +68,7 @@ class Membrane(Phenomenon):
         particles = state.particles
         if self.broken or particles is None or particles.holder[self._first] != FREE:
             return
-        places = particles.position[self._own]
+        places = particles.position[self._own].copy()
         if np.array_equal(places, self._places):
             # A step of the liquid takes several ticks.
             particles.velocity[self._own] += self._push
