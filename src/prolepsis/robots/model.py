@@ -13,7 +13,8 @@ from prolepsis.engine import mujoco
 from prolepsis.errors import ScenarioError
 from prolepsis.robots.gap import Gap
 from prolepsis.robots.hand import rotate
-from prolepsis.robots.robot import Arm, Robot
+from prolepsis.robots.robot import ParallelGripper, Robot
+from prolepsis.things import FloatArray
 
 TABLE = 257
 """Lengths at which a gripper's gap is measured: it is interpolated to a micrometre."""
@@ -48,7 +49,7 @@ class RobotModel:
             posture |= dict.fromkeys(arm.gripper.fingers, half)
         for name, value in posture.items():
             data.joint(name).qpos[0] = value
-        _follow_couplings(self.model, data)
+        follow_couplings(self.model, data)
         mujoco.mj_kinematics(self.model, data)
         joints = _single(self.model)
         return data, {self.model.joint(j).name: float(data.qpos[self.model.jnt_qposadr[j]]) for j in joints}
@@ -71,7 +72,7 @@ def robot_model(robot: Robot) -> RobotModel:
         for body in range(1, model.nbody):
             if _is_below(model, body, palm):
                 owner[model.body(body).name] = arm.name
-    gaps = {arm.name: _gap(model, arm) for arm in robot.arms}
+    gaps = {arm.name: gap_of(model, arm.gripper, arm.name) for arm in robot.arms}
     return RobotModel(robot=robot, model=model, owner=owner, root=model.body(1).name, gaps=gaps)
 
 
@@ -82,7 +83,7 @@ def read_spec(robot: Robot) -> Any:
         ScenarioError: If it cannot be read.
     """
     try:
-        return mujoco.MjSpec.from_file(str(robot.file))
+        return mujoco.MjSpec.from_string(robot.model) if robot.model else mujoco.MjSpec.from_file(str(robot.file))
     except (ValueError, OSError) as error:
         raise ScenarioError(f"{robot.file}: the robot cannot be read: {' '.join(str(error).split())}") from None
 
@@ -101,7 +102,7 @@ def _is_below(model: Any, body: int, top: int) -> bool:
     return False
 
 
-def _follow_couplings(model: Any, data: Any) -> None:
+def follow_couplings(model: Any, data: Any) -> None:
     """Set the joints that equalities couple to others; kinematics alone does not."""
     for _ in range(3):
         for equality in range(model.neq):
@@ -113,34 +114,57 @@ def _follow_couplings(model: Any, data: Any) -> None:
             data.qpos[first] = model.qpos0[first] + float(shape @ away ** np.arange(5))
 
 
-def _gap(model: Any, arm: Arm) -> Gap:
-    """Return the gap between the geoms of the pads over the range of the fingers."""
-    gripper, data = arm.gripper, mujoco.MjData(model)
+def gap_of(model: Any, gripper: ParallelGripper, name: str) -> Gap:
+    """Return the gap between the geoms of the pads over the range of the fingers; half open, the pads' middles are at
+    the origin of the gripper's frame.
+
+    Raises:
+        ScenarioError: If the pads of the gripper, which is called ``name``, do not part.
+    """
+    data = mujoco.MjData(model)
     low, high = (float(v) for v in model.joint(gripper.fingers[0]).range)
     if not high > low:
-        raise ScenarioError(f"{arm.name}: the finger joint {gripper.fingers[0]} has no range")
+        raise ScenarioError(f"{name}: the finger joint {gripper.fingers[0]} has no range")
     lengths = np.linspace(2 * low, 2 * high, TABLE)
-    pads = [_geoms(model, pad) for pad in gripper.pads]
-    palm = model.body(gripper.palm).id
+    pads = [touching_geoms(model, pad) for pad in gripper.pads]
+    _open_to(model, data, gripper, lengths[TABLE // 2])
+    tool, forward = _tool(model, data, gripper)
+    between = [_seen_from(data, pad, tool) for pad in gripper.pads]
     gaps, places = np.zeros(TABLE), np.zeros(TABLE)
     for k, length in enumerate(lengths):
-        for finger in gripper.fingers:
-            data.joint(finger).qpos[0] = length / 2
-        _follow_couplings(model, data)
-        mujoco.mj_kinematics(model, data)
+        _open_to(model, data, gripper, length)
         gaps[k] = min(mujoco.mj_geomDistance(model, data, a, b, FARTHEST, None) for a in pads[0] for b in pads[1])
-        tool, turn = np.zeros(3), np.zeros(4)
-        mujoco.mju_mulPose(
-            tool, turn, data.xpos[palm], data.xquat[palm], np.array(gripper.tool), np.array(gripper.tool_orientation)
-        )
-        forward = rotate((float(turn[0]), float(turn[1]), float(turn[2]), float(turn[3])), (1.0, 0.0, 0.0))
-        middle = np.mean([data.geom_xpos[geom] for pad in pads for geom in pad], axis=0)
-        places[k] = forward @ (middle - tool)
+        moved = [data.body(pad).xpos + data.body(pad).xmat.reshape(3, 3) @ place for pad, place in between]
+        places[k] = forward @ (np.mean(moved, axis=0) - tool)
     if not (np.diff(gaps) > 0).all():
-        raise ScenarioError(f"{arm.name}: its pads do not part where its finger joints grow")
+        raise ScenarioError(f"{name}: its pads do not part where its finger joints grow")
     return Gap.tabulated(lengths, gaps, places)
 
 
-def _geoms(model: Any, body: str) -> list[int]:
+def _open_to(model: Any, data: Any, gripper: ParallelGripper, length: float) -> None:
+    """Put the fingers where their joints add up to ``length`` [m or rad]."""
+    for finger in gripper.fingers:
+        data.joint(finger).qpos[0] = length / 2
+    follow_couplings(model, data)
+    mujoco.mj_kinematics(model, data)
+
+
+def _tool(model: Any, data: Any, gripper: ParallelGripper) -> tuple[FloatArray, FloatArray]:
+    """Return origin and x axis of the gripper's frame [m], each shape (3,)."""
+    palm = model.body(gripper.palm).id
+    place, turn = np.zeros(3), np.zeros(4)
+    mujoco.mju_mulPose(
+        place, turn, data.xpos[palm], data.xquat[palm], np.array(gripper.tool), np.array(gripper.tool_orientation)
+    )
+    return place, rotate((float(turn[0]), float(turn[1]), float(turn[2]), float(turn[3])), (1.0, 0.0, 0.0))
+
+
+def _seen_from(data: Any, body: str, place: FloatArray) -> tuple[str, FloatArray]:
+    """Return a body with a place in its frame [m], shape (3,)."""
+    return body, data.body(body).xmat.reshape(3, 3).T @ (place - data.body(body).xpos)
+
+
+def touching_geoms(model: Any, body: str) -> list[int]:
+    """Return the geoms of a body that can touch something."""
     number = model.body(body).id
     return [g for g in range(model.ngeom) if int(model.geom_bodyid[g]) == number and model.geom_contype[g]]

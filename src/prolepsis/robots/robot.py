@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from prolepsis.things import IDENTITY, Quaternion, Triple
@@ -69,7 +69,9 @@ class Robot:
     kind: str
     """Class in the ontology."""
     file: Path
-    """The model, MJCF or URDF."""
+    """The model: MJCF, or anything else from which ``model`` was made."""
+    model: str = field(default="", repr=False)
+    """The model itself (MJCF) if the file had to be changed to fit into a world."""
     arms: tuple[Arm, ...]
     base: tuple[Joint, ...] = ()
     """Joints that drive it over the floor: along x, along y, about z; none if it stands where it is."""
