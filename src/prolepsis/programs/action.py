@@ -170,7 +170,12 @@ def _refuse_beyond(parameters: tuple[Parameter, ...], bound: Mapping[str, Any], 
                 )
 
 
-LIMITS: Mapping[str, str] = {"force": "maxForce", "push": "maxPush", "speed": "maxSpeed", "acceleration": "maxAcceleration"}
+LIMITS: Mapping[str, str] = {
+    "force": "maxForce",
+    "push": "maxPush",
+    "speed": "maxSpeed",
+    "acceleration": "maxAcceleration",
+}
 """Quantity of a gripper that says how much of a kind it can."""
 
 

@@ -8,15 +8,12 @@ from typing import Any
 import numpy as np
 
 from prolepsis.programs.commands import ActionFailedError, Arm, ArmTarget, Behaviour, HandTarget, Sense, Way
+from prolepsis.programs.profile import least_jerk, least_time
 from prolepsis.programs.turning import TICK
 from prolepsis.things import FloatArray, Thing, Triple
 
-KNOTS = 20
+KNOTS = 40
 """Ticks between two places at which the joints of a given course are computed."""
-SHORTEST = 0.05
-"""A free way takes at least this long [s]."""
-PEAK_SPEED, PEAK_ACCELERATION = 1.875, 5.7735
-"""Of a course from rest to rest with the least jerk, over way / time and way / time^2 [1]."""
 
 
 def follow(hand: Thing, sense: Sense, offsets: FloatArray, turns: FloatArray) -> Behaviour:
@@ -69,17 +66,8 @@ def go(hand: Thing, sense: Sense, offset: Triple, turn: Triple, ignoring: Collec
     way = arm.way(offset, turn, ignoring)
     _refuse(hand, way)
     for start, end in zip(way.joints[:-1], way.joints[1:], strict=True):
-        distance = np.abs(end - start)
-        duration = max(
-            float((PEAK_SPEED * distance / arm.speeds).max()),
-            float(np.sqrt(PEAK_ACCELERATION * distance / arm.accelerations).max()),
-            SHORTEST,
-        )
-        count = max(round(duration / TICK), 1)
-        shares = np.arange(1, count + 1) / count
-        for s in shares:
-            share = s**3 * (10 - 15 * s + 6 * s * s)
-            rate = 30 * s * s * (1 - s) ** 2 / (count * TICK)
+        duration = least_time(np.abs(end - start), arm.speeds, arm.accelerations)
+        for share, rate in least_jerk(duration):
             sense = yield (_target(hand, start + share * (end - start), rate * (end - start), offset, turn),)
             _refuse_bump(hand, sense)
     return sense

@@ -20,8 +20,12 @@ FINEST = 0.1
 """Two postures that are looked at for collisions differ by at most this much in each joint [rad]."""
 VIA_HEIGHTS = (0.1, 0.2, 0.3)
 """If the straight way is blocked, the arm goes through a place this far above the goal [m], or above where it is."""
-SEARCHES = 4
-"""Starts of the search for a posture: where the arm is, at home, and half-way between ranges."""
+SEARCHES = 6
+"""Searches for a posture start where the arm is, at home, and at so many others between home and the ranges' ends."""
+REACH = 0.6
+"""These lie up to this share of the way from home to the ends."""
+MARGIN, AT_THE_END = 0.1, 3.0
+"""A joint nearer to the end of its range [rad] adds this to how uneasy a posture is [rad^2]: no hand goes on evenly."""
 
 
 class ArmWays:
@@ -40,6 +44,7 @@ class ArmWays:
         self._first = first
         self._reference = reference
         self._mount_name, self._palm = mount, palm
+        self._starts = _starts(kinematics)
         self._state: State | None = None
         self._scratch: Any = None
         self._version = -1
@@ -71,7 +76,7 @@ class ArmWays:
         joints: list[FloatArray] = []
         now = self.joints
         for offset, turn in zip(offsets, turns, strict=True):
-            found = self._kinematics.solve(self._seen(offset, turn), now)
+            found = self._kinematics.solve(self._seen(offset, turn), now, near=now)
             if not found.is_there:
                 return Way(joints=np.array(joints), problem="unreachable", detail=_short_by(found))
             now = found.joints
@@ -87,30 +92,37 @@ class ArmWays:
             self._scratch.qpos[self._finger_places] = self._gap.length(opening) / 2
         nearest: Found | None = None
         blocked = ""
+        chosen: list[tuple[float, FloatArray]] = []
         for found in self._postures(np.asarray(offset), np.asarray(turn)):
             if not found.is_there:
                 nearest = found if nearest is None or found.distance < nearest.distance else nearest
                 continue
             hit = self._touched(found.joints, ignoring)
-            if hit:
-                blocked = blocked or hit
-                continue
-            for postures in self._courses(found.joints, np.asarray(offset), np.asarray(turn)):
+            blocked = blocked or hit
+            if not hit:
+                chosen.append((self._strain(found.joints), found.joints))
+        for _, joints in sorted(chosen, key=lambda each: each[0]):
+            for postures in self._courses(joints, np.asarray(offset), np.asarray(turn)):
                 hit = self._touched_on(postures, ignoring)
                 if not hit:
                     return Way(joints=np.array(postures))
                 blocked = hit
+        nowhere = np.zeros((0, len(self.joints)))
         if blocked:
-            return Way(joints=np.zeros((0, len(self.joints))), problem="in_collision", detail=blocked)
+            return Way(joints=nowhere, problem="in_collision", detail=blocked)
         assert nearest is not None
-        return Way(joints=np.zeros((0, len(self.joints))), problem="unreachable", detail=_short_by(nearest))
+        return Way(joints=nowhere, problem="unreachable", detail=_short_by(nearest))
+
+    def _strain(self, joints: FloatArray) -> float:
+        """Return how uneasy a posture is [rad^2]: far from home, near the ends of ranges."""
+        away = joints - self._kinematics.home
+        margin = np.minimum(joints - self._kinematics.low, self._kinematics.high - joints)
+        return float(away @ away) + AT_THE_END * int((margin < MARGIN).sum())
 
     def _postures(self, offset: FloatArray, turn: FloatArray) -> Iterator[Found]:
-        """Yield solutions from several starts, near ones first."""
+        """Yield solutions from several starts."""
         pose = self._seen(offset, turn)
-        low, high = np.maximum(self._kinematics.low, -np.pi), np.minimum(self._kinematics.high, np.pi)
-        middle = (low + high) / 2
-        for start in (self.joints, self._kinematics.home, middle, (middle + self._kinematics.home) / 2)[:SEARCHES]:
+        for start in (self.joints, *self._starts):
             yield self._kinematics.solve(pose, start)
 
     def _courses(self, goal: FloatArray, offset: FloatArray, turn: FloatArray) -> Iterator[list[FloatArray]]:
@@ -162,6 +174,14 @@ class ArmWays:
         yaw, pitch, roll = (float(a) for a in turn)
         place = [f + float(o) for f, o in zip(self._first, offset, strict=True)]
         return relative_pose(self._mount_pose(), np.array([*place, *turned(self._reference, (yaw, pitch, roll))]))
+
+
+def _starts(kinematics: ArmKinematics) -> list[FloatArray]:
+    """Return postures from which a search may start: home, and others all over the ranges, always the same."""
+    home = kinematics.home
+    low, high = np.maximum(kinematics.low, home - np.pi), np.minimum(kinematics.high, home + np.pi)
+    shares = np.random.default_rng(0).uniform(-REACH, REACH, (SEARCHES, len(home)))
+    return [home, *(home + np.where(s > 0, s * (high - home), s * (home - low)) for s in shares)]
 
 
 def _short_by(found: Found) -> str:

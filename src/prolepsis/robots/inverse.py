@@ -1,7 +1,12 @@
-"""Inverse kinematics of one arm: joint coordinates that put its gripper where it should be (mink, daqp)."""
+"""Inverse kinematics of one arm: joint coordinates that put its gripper where it should be.
+
+In motion mink takes the hand to its target within the joints' speeds. A search for a posture takes hundreds of steps of
+the same kind, so it states the quadratic program itself: that is ten times as fast. Both are solved by daqp.
+"""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,10 +22,16 @@ SITE = "prolepsis_tool"
 POSTURE_COST = 1.0e-3
 """Weight of staying near the home posture, against 1 for each metre and radian of the gripper's frame: it decides where
 the elbow goes and moves the gripper by less than a tenth of a millimetre."""
+WEIGHTS = np.array([1.0, 1.0, 1.0, 0.5, 0.5, 0.5])
+"""Of place and orientation [1/m, 1/rad]."""
+NO_ROWS = np.zeros((0, 16))
+"""The quadratic program has bounds on the joints and nothing else."""
 DAMPING = 1.0e-6
 """Regularization of the quadratic program, small against the squared reach of an arm [m^2]."""
 CLOSE, TURNED = 5.0e-4, 2.0e-3
 """A solution is at most this far from where the gripper should be [m, rad]."""
+EXACT = 2.0e-5
+"""A search ends here, so that solutions for neighbouring places lie evenly [m + rad]."""
 STEPS = 60
 """Iterations before a search from one start gives up ..."""
 PATIENCE, PROGRESS = 6, 0.9
@@ -53,6 +64,7 @@ class ArmKinematics:
     def __init__(self, robot: Robot, arm: Arm) -> None:
         """Read the arm's joints from the robot's model."""
         # The import takes longer than a scene without an arm.
+        import daqp
         import mink
 
         spec = robot_model(robot).spec()
@@ -68,6 +80,7 @@ class ArmKinematics:
                 spec.delete(joint)
         self.model: Any = spec.compile()
         self._mink: Any = mink
+        self._daqp: Any = daqp
         self._here: Any = mink.Configuration(self.model)
         self._site = int(self.model.site(SITE).id)
         body, data = (self.model.body(self.mount).id if self.mount != "world" else 0), self._here.data
@@ -85,14 +98,15 @@ class ArmKinematics:
             raise ValueError(f"{arm.name}: its joints are not listed from the trunk outwards: {', '.join(names)}")
         self.home = np.array([joint.home for joint in arm.joints])
         self.speeds = np.array([joint.speed for joint in arm.joints])
-        self._frame: Any = mink.FrameTask(SITE, "site", position_cost=1.0, orientation_cost=0.5, lm_damping=1e-4)
-        posture: Any = mink.PostureTask(self.model, cost=POSTURE_COST)
-        posture.set_target(self.home)
-        self._tasks = [self._frame, posture]
+        self._frame: Any = mink.FrameTask(
+            SITE, "site", position_cost=WEIGHTS[:3], orientation_cost=WEIGHTS[3:], lm_damping=1e-4
+        )
+        self._posture: Any = mink.PostureTask(self.model, cost=POSTURE_COST)
+        self._tasks = [self._frame, self._posture]
         ranges: Any = mink.ConfigurationLimit(self.model)
         speeds = {joint.name: joint.speed for joint in arm.joints}
         self._moving = [ranges, mink.VelocityLimit(self.model, speeds)]
-        self._searching = [ranges, mink.VelocityLimit(self.model, dict.fromkeys(names, LONGEST_STEP))]
+        self._eye, self._free = np.eye(len(names)), np.zeros(len(names), dtype=np.int32)
         self.low, self.high = self._ranges()
 
     def _ranges(self) -> tuple[FloatArray, FloatArray]:
@@ -131,33 +145,50 @@ class ArmKinematics:
         within the joints' ranges and speeds."""
         self._here.update(joints)
         self._aim(pose)
+        self._posture.set_target(joints)
         return self._mink.solve_ik(
             self._here, self._tasks, duration, solver="daqp", damping=DAMPING, limits=self._moving
         )
 
-    def solve(self, pose: FloatArray, start: FloatArray) -> Found:
-        """Return coordinates that put the gripper at ``pose``, or as near as a search from ``start`` gets."""
+    def solve(self, pose: FloatArray, start: FloatArray, near: FloatArray | None = None) -> Found:
+        """Return coordinates that put the gripper at ``pose``, or as near as a search from ``start`` gets.
+
+        Of all that do, those near home are sought, or near to other coordinates, ``near``.
+        """
         joints = start.copy()
         best: Found | None = None
         errors: list[float] = []
+        goal, turn, back = np.zeros(7), np.zeros(4), np.zeros(3)
+        mujoco.mju_mulPose(goal[:3], goal[3:], *self._mount_pose, pose[:3], pose[3:])
+        nearest = self.home if near is None else near
+        model, data, count = self.model, self._here.data, len(joints)
+        jacobian, error = np.zeros((6, count)), np.zeros(6)
         for _ in range(STEPS):
-            self._here.update(joints)
-            self._aim(pose)
-            error: FloatArray = self._frame.compute_error(self._here)
+            data.qpos[:count] = joints
+            mujoco.mj_kinematics(model, data)
+            mujoco.mj_comPos(model, data)
+            mujoco.mj_jacSite(model, data, jacobian[:3], jacobian[3:], self._site)
+            mujoco.mju_mat2Quat(turn, data.site_xmat[self._site])
+            # The rotation that is left, turned into the world's axes like the Jacobian's.
+            mujoco.mju_subQuat(back, goal[3:], turn)
+            error[:3] = goal[:3] - data.site_xpos[self._site]
+            error[3:] = data.site_xmat[self._site].reshape(3, 3) @ back
             here = Found(
                 joints=joints.copy(),
-                distance=float(np.linalg.norm(error[:3])),
-                angle=float(np.linalg.norm(error[3:])),
+                distance=math.sqrt(float(error[:3] @ error[:3])),
+                angle=math.sqrt(float(error[3:] @ error[3:])),
             )
             if best is None or here.distance + here.angle < best.distance + best.angle:
                 best = here
             errors.append(here.distance + here.angle)
             stuck = len(errors) > PATIENCE and errors[-1] > PROGRESS * errors[-1 - PATIENCE]
-            if stuck or (here.distance < CLOSE / 5 and here.angle < TURNED / 5):
+            if stuck or errors[-1] < EXACT:
                 break
-            rates: FloatArray = self._mink.solve_ik(
-                self._here, self._tasks, 1.0, solver="daqp", damping=DAMPING, limits=self._searching
-            )
-            joints = np.clip(joints + rates, self.low, self.high)
+            weighted = WEIGHTS[:, None] * jacobian
+            squared = weighted.T @ weighted + (POSTURE_COST**2 + DAMPING) * self._eye
+            slope = POSTURE_COST**2 * (joints - nearest) - weighted.T @ (WEIGHTS * error)
+            high = np.minimum(self.high - joints, LONGEST_STEP)
+            low = np.maximum(self.low - joints, -LONGEST_STEP)
+            joints = joints + self._daqp.solve(squared, slope, NO_ROWS[:, :count], high, low, self._free)[0]
         assert best is not None
         return best

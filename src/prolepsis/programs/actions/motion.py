@@ -19,6 +19,7 @@ from prolepsis.programs.grasping import (
     grips,
     least_width,
 )
+from prolepsis.programs.profile import PEAK_ACCELERATION, PEAK_SPEED, least_jerk
 from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.scene.robot_world import robot_of_gripper
 from prolepsis.scene.scene import Scene
@@ -40,13 +41,8 @@ def line(displacement: Triple, acceleration: float, speed: float) -> Iterator[tu
     """Yield the way [m] and the velocity [m/s] at each tick along a line, from rest to rest, with the least jerk."""
     x, y, z = displacement
     distance = float(np.linalg.norm(displacement))
-    # Of the least-jerk profile over T: greatest speed 1.875 d/T, greatest acceleration 5.7735 d/T^2.
-    duration = max(1.875 * distance / speed, (5.7735 * distance / acceleration) ** 0.5)
-    count = max(round(duration / TICK), 1)
-    for k in range(1, count + 1):
-        s = k / count
-        share = s**3 * (10 - 15 * s + 6 * s * s)
-        rate = 30 * s * s * (1 - s) ** 2 / (count * TICK)
+    duration = max(PEAK_SPEED * distance / speed, (PEAK_ACCELERATION * distance / acceleration) ** 0.5)
+    for share, rate in least_jerk(duration):
         yield (share * x, share * y, share * z), (rate * x, rate * y, rate * z)
 
 

@@ -1,0 +1,148 @@
+"""Striking and pressing: what a hand holds is hit against something, or pressed on it; a closed hand presses, too."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from prolepsis.errors import PlanError
+from prolepsis.programs.action import HAND, OBJECT, Parameter, action
+from prolepsis.programs.actions.motion import stay, travel
+from prolepsis.programs.commands import ActionFailedError, Behaviour, HandTarget, Note, Sense
+from prolepsis.programs.following import follow
+from prolepsis.programs.holding import free_place, move_held, spots
+from prolepsis.programs.turning import TICK
+from prolepsis.scene.robot_world import robot_of_gripper
+from prolepsis.scene.scene import Scene
+from prolepsis.things import FloatArray, Quaternion, Thing, Triple
+
+LEAST_WINDUP = 0.03
+"""The hand comes from at least this high above what it hits [m]."""
+ACCELERATION = 6.0
+"""With which it gets to its speed [m/s^2]."""
+TOO_DEEP = 0.03
+"""A blow or a push that has met nothing by this far past the surface has missed [m]."""
+TOUCH = 0.3
+"""Force at which a blow has met what it hits [N]."""
+BACK, BACK_SPEED = 0.04, 0.1
+"""After it the hand goes back this far, so fast [m, m/s]."""
+APPROACH_HEIGHT, APPROACH_SPEED = 0.004, 0.02
+"""A push begins this far above what it presses on, and goes down so fast [m, m/s]."""
+RATE = 8.0
+"""Rate at which an error of the force fades [1/s]."""
+RAMP_TIME, HOLD_TIME = 1.0, 0.5
+"""A push grows to its force in this time, and is held for this time [s]."""
+
+AGAINST = Parameter(name="against", kind="object")
+PART = Parameter(name="part", kind="part", default="edge")
+
+
+def _has_part(scene: Scene, *, object: Thing, against: Thing, part: str, **_: object) -> None:
+    del scene
+    if object.name == against.name:
+        raise PlanError(f"plan: {object.name} cannot be hit against itself")
+    spots(against, part)
+
+
+def reference_of(scene: Scene, hand: Thing) -> Quaternion:
+    """Return the orientation from which a hand's turns count: a robot's own, or the hand's at the start."""
+    robot = robot_of_gripper(scene, hand)
+    return hand.orientation if robot is None else scene.thing(robot).orientation
+
+
+@action(HAND, OBJECT, AGAINST, Parameter(name="speed", kind="speed", default=0.25), PART, check=_has_part)
+def hit(
+    scene: Scene, sense: Sense, *, hand: Thing, object: Thing, against: Thing, speed: float, part: str
+) -> Behaviour:
+    """Hit what the hand holds from above against the edge or the top of something, at a speed; draw back at once."""
+    offset, turn = free_place(hand, object, sense, against, part, reference_of(scene, hand))
+    windup = max(LEAST_WINDUP, speed * speed / ACCELERATION)
+    above = (offset[0], offset[1], offset[2] + windup)
+    sense = yield from move_held(hand, object, sense, above, turn)
+    sense = yield from stay(0.2, sense)
+    depths = _blow(windup + TOO_DEEP, speed)
+    blow = follow(hand, sense, np.asarray(above) - depths[:, None] * (0.0, 0.0, 1.0), np.tile(turn, (len(depths), 1)))
+    made = next(blow)
+    while True:
+        before = sense
+        try:
+            sense = yield made
+            if sense.pressing(object.name, against.name) > TOUCH:
+                break
+            made = blow.send(sense)
+        except StopIteration as ended:
+            sense = ended.value
+            yield from travel(hand, sense, (0.0, 0.0, BACK), 2.0, BACK_SPEED)
+            raise ActionFailedError("missed", f"{object.name} did not meet {against.name}") from None
+    met = -before.hands[hand.name].velocity()[2]
+    here = sense.hands[hand.name]
+    sense = yield (Note(evidence={"speed": met}), HandTarget(hand=hand.name, offset=here.offset, turn=here.turn))
+    sense = yield from stay(0.05, sense)
+    return (yield from travel(hand, sense, (0.0, 0.0, BACK), 2.0, BACK_SPEED))
+
+
+def _blow(length: float, speed: float) -> FloatArray:
+    """Return how deep a blow has come at each tick [m]: it gets to its speed, goes ``length`` [m], and slows down."""
+    time_up = min(2 * speed / ACCELERATION, length / speed)
+    full = length / speed - time_up / 2
+    ticks = np.arange(1, round((full + 2 * time_up) / TICK) + 1) * TICK
+
+    def risen(time: FloatArray) -> FloatArray:
+        # The integral of a smooth step up to the speed.
+        share = np.clip(time / time_up, 0.0, 1.0)
+        return speed * time_up * (share**3 - share**4 / 2) + speed * np.maximum(time - time_up, 0.0)
+
+    return risen(ticks) - risen(ticks - time_up - full)
+
+
+@action(
+    HAND,
+    OBJECT,
+    AGAINST,
+    Parameter(name="force", kind="push"),
+    Parameter(name="part", kind="part", default="top"),
+    Parameter(name="duration", kind="duration", default=HOLD_TIME),
+    check=_has_part,
+)
+def press(
+    scene: Scene,
+    sense: Sense,
+    *,
+    hand: Thing,
+    object: Thing,
+    against: Thing,
+    force: float,
+    part: str,
+    duration: float,
+) -> Behaviour:
+    """Press what the hand holds from above on something with a force, for a while, and draw back."""
+    offset, turn = free_place(hand, object, sense, against, part, reference_of(scene, hand))
+    above = (offset[0], offset[1], offset[2] + APPROACH_HEIGHT)
+    sense = yield from move_held(hand, object, sense, above, turn)
+    sense = yield from stay(0.2, sense)
+    sense = yield from push_down(hand, sense, force, duration)
+    return (yield from travel(hand, sense, (0.0, 0.0, BACK), 2.0, BACK_SPEED))
+
+
+def push_down(hand: Thing, sense: Sense, force: float, duration: float) -> Behaviour:
+    """Go down until something resists, raise the force to ``force`` [N], and keep it for ``duration`` [s].
+
+    The force is told by the joints' efforts, against what they were before.
+    """
+    start = sense.hands[hand.name]
+    resting = start.load()[2]
+    depth, elapsed, touched, greatest = 0.0, 0.0, False, 0.0
+    while elapsed < RAMP_TIME + duration and depth < TOO_DEEP:
+        felt = resting - sense.hands[hand.name].load()[2]
+        greatest = max(greatest, felt)
+        touched = touched or felt > TOUCH
+        if touched:
+            elapsed += TICK
+            wanted = force * min(elapsed / RAMP_TIME, 1.0)
+            sinking = (wanted - felt) / start.stiffness * RATE
+        else:
+            sinking = APPROACH_SPEED
+        depth += sinking * TICK
+        place: Triple = (start.offset[0], start.offset[1], start.offset[2] - depth)
+        target = HandTarget(hand=hand.name, offset=place, velocity=(0.0, 0.0, -sinking), turn=start.turn)
+        sense = yield (target, Note(evidence={"force": greatest}))
+    return sense

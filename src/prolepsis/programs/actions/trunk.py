@@ -1,0 +1,102 @@
+"""Moving a robot's trunk: drive over the floor, turn the head to something, raise the torso."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from prolepsis.errors import PlanError
+from prolepsis.programs.action import OBJECT, ROBOT_NAME, Parameter, action
+from prolepsis.programs.commands import ActionFailedError, Behaviour, JointTarget, RobotSense, Sense
+from prolepsis.programs.profile import least_jerk, least_time
+from prolepsis.scene.scene import Scene
+from prolepsis.things import Thing
+
+
+def move_joints(robot: Thing, sense: Sense, goals: Mapping[str, float], speed: float | None = None) -> Behaviour:
+    """Move joints of a robot's trunk from rest to rest, all in the same time, as fast as they may, or at ``speed``."""
+    here = sense.robots[robot.name]
+    starts = np.array([here.joints[name] for name in goals])
+    ways = np.array(list(goals.values())) - starts
+    speeds = np.array([here.speeds[name] if speed is None else min(here.speeds[name], speed) for name in goals])
+    duration = least_time(np.abs(ways), speeds, np.array([here.accelerations[name] for name in goals]))
+    for share, rate in least_jerk(duration):
+        places, rates = starts + share * ways, rate * ways
+        sense = yield (
+            JointTarget(
+                robot=robot.name,
+                joints=dict(zip(goals, map(float, places), strict=True)),
+                speeds=dict(zip(goals, map(float, rates), strict=True)),
+            ),
+        )
+    return sense
+
+
+def _can_drive(scene: Scene, *, robot: Thing, **_: object) -> None:
+    if not scene.robots[robot.name].base:
+        raise PlanError(f"plan: {robot.name} stands where it is; it has no base to drive")
+
+
+@action(
+    ROBOT_NAME,
+    Parameter(name="place", kind="place"),
+    Parameter(name="yaw", kind="angle", default=0.0),
+    Parameter(name="speed", kind="speed", default=0.4),
+    check=_can_drive,
+    moves="base",
+)
+def drive(
+    scene: Scene, sense: Sense, *, robot: Thing, place: tuple[float, float], yaw: float, speed: float
+) -> Behaviour:
+    """Drive to a place on the floor, in the world's axes, and face a direction there (0: along x)."""
+    del scene
+    w, _, _, z = robot.orientation
+    first = 2 * math.atan2(z, w)
+    dx, dy = place[0] - robot.position[0], place[1] - robot.position[1]
+    along = math.cos(first) * dx + math.sin(first) * dy
+    aside = math.cos(first) * dy - math.sin(first) * dx
+    x, y, turn = sense.robots[robot.name].base
+    return (yield from move_joints(robot, sense, {x: along, y: aside, turn: yaw - first}, speed))
+
+
+def _can_look(scene: Scene, *, robot: Thing, **_: object) -> None:
+    if not scene.robots[robot.name].head:
+        raise PlanError(f"plan: {robot.name} has no head to turn")
+
+
+@action(ROBOT_NAME, OBJECT, check=_can_look, moves="head")
+def look_at(scene: Scene, sense: Sense, *, robot: Thing, object: Thing) -> Behaviour:
+    """Turn the head so that the camera looks at an object."""
+    del scene
+    here = sense.robots[robot.name]
+    x, y, z = (there - at for there, at in zip(sense.place(object.name), here.neck, strict=True))
+    pan = (math.atan2(y, x) - here.yaw + math.pi) % (2 * math.pi) - math.pi
+    goals = dict(zip(here.head, (pan, math.atan2(-z, math.hypot(x, y))), strict=True))
+    _refuse_beyond(robot, here, goals, object)
+    return (yield from move_joints(robot, sense, goals))
+
+
+def _refuse_beyond(robot: Thing, here: RobotSense, goals: Mapping[str, float], object: Thing) -> None:
+    for name, goal in goals.items():
+        low, high = here.ranges[name]
+        if not low <= goal <= high:
+            reason = f"{name} of {robot.name} would be at {goal:.2f} rad, allowed {low:.2f} to {high:.2f}"
+            raise ActionFailedError("unreachable", f"{object.name}: {reason}")
+
+
+def _can_raise(scene: Scene, *, robot: Thing, **_: object) -> None:
+    if not scene.robots[robot.name].torso:
+        raise PlanError(f"plan: {robot.name} has no torso to raise")
+
+
+@action(ROBOT_NAME, Parameter(name="height", kind="length"), check=_can_raise, moves="torso")
+def raise_torso(scene: Scene, sense: Sense, *, robot: Thing, height: float) -> Behaviour:
+    """Move the torso to a height in its range."""
+    torso = scene.robots[robot.name].torso[-1].name
+    low, high = sense.robots[robot.name].ranges[torso]
+    if not low <= height <= high:
+        reason = f"{torso} of {robot.name} would be at {height:g} m, allowed {low:g} to {high:g} m"
+        raise ActionFailedError("unreachable", reason)
+    return (yield from move_joints(robot, sense, {torso: height}))

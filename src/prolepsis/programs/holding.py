@@ -1,0 +1,168 @@
+"""What a hand holds goes with it: where the hand must be for it to touch something, and where that can be hit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from prolepsis.errors import PlanError
+from prolepsis.programs.commands import ActionFailedError, Behaviour, HandSense, Sense, Way
+from prolepsis.programs.following import follow, go
+from prolepsis.programs.grasping import as_seen
+from prolepsis.programs.profile import least_jerk
+from prolepsis.programs.turning import matrix
+from prolepsis.robots.turned import inverse, product, turned
+from prolepsis.scene.extent import middle, support
+from prolepsis.things import FloatArray, Quaternion, Thing, Triple
+
+PITCHES = (20.0, 30.0, 10.0, 45.0, 0.0, 60.0)
+"""Pitches of the hand that are tried when it hits or presses with what it holds [degrees]."""
+RIM_POINTS = 16
+"""Places round a rim that are tried."""
+RIM = 1.0e-3
+"""Points within this height of the topmost belong to the rim [m]."""
+FACING = math.radians(80.0)
+"""The hand points at most this far away from where its shoulder sees the place."""
+STRAIGHT_SPEED = 0.3
+"""Of a free hand's straight way to a place [m/s, rad/s]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Spot:
+    """A place on the surface of a thing."""
+
+    point: Triple
+    """In the world [m]."""
+    along: Triple
+    """Unit vector along the edge, level; zeros if there is none."""
+
+
+def spots(against: Thing, part: str) -> list[Spot]:
+    """Return where a thing can be hit from above, each on its ``edge`` or its ``top``.
+
+    Raises:
+        PlanError: If it has no such part.
+    """
+    up = np.array([0.0, 0.0, 1.0])
+    top = against.position[2] + support(against, up)
+    centre = np.asarray(against.position) + middle(against)
+    if part == "top":
+        return [Spot(point=(float(centre[0]), float(centre[1]), top), along=(0.0, 0.0, 0.0))]
+    turn = matrix(against.orientation)
+    if against.shape.profile:
+        corners = np.asarray(against.shape.profile) * (1.0, 1.0 if turn[2, 2] > 0 else -1.0)
+        radius = float(corners[corners[:, 1] > corners[:, 1].max() - RIM][:, 0].mean())
+        angles = np.arange(RIM_POINTS) * 2 * np.pi / RIM_POINTS
+        return [
+            Spot(
+                point=(float(centre[0] + radius * np.cos(a)), float(centre[1] + radius * np.sin(a)), top),
+                along=(float(-np.sin(a)), float(np.cos(a)), 0.0),
+            )
+            for a in angles
+        ]
+    boxes = [geom for geom in against.shape.geoms if geom.type == "box"]
+    if not boxes or turn[2, 2] < 0.99:
+        raise PlanError(f"plan: {against.name} has no edge that can be hit; take its top")
+    box = max(boxes, key=lambda geom: geom.position[2] + geom.size[2])
+    found: list[Spot] = []
+    for k, sign in ((0, 1), (0, -1), (1, 1), (1, -1)):
+        local = np.asarray(box.position) + sign * box.size[k] * np.eye(3)[k] + box.size[2] * up
+        place, along = np.asarray(against.position) + turn @ local, turn[:, 1 - k]
+        found.append(Spot(point=(float(place[0]), float(place[1]), top), along=_triple(along)))
+    return found
+
+
+def hand_places(hand: HandSense, held: Thing, spot: Spot, reference: Quaternion) -> Iterator[tuple[Triple, Triple]]:
+    """Yield places and turns of a hand at which the thing it holds touches a spot from above, natural ones first.
+
+    Where there is an edge, the hand points along it, so that its fingers are on both sides. A hand that flies stays
+    turned as it is.
+    """
+    if hand.arm is None:
+        yield place_of(hand, held, spot.point, hand.orientation), hand.turn
+        return
+    bearing = hand.arm.bearing(spot.point)
+    yaws = [bearing]
+    if any(spot.along):
+        heading = math.atan2(spot.along[1], spot.along[0]) - _yaw(reference)
+        around = [_wrapped(heading + half - bearing) for half in (0.0, math.pi)]
+        yaws = [bearing + away for away in sorted(around, key=abs) if abs(away) <= FACING]
+    for yaw in yaws:
+        for pitch in PITCHES:
+            turn = (yaw, math.radians(pitch), hand.turn[2])
+            yield place_of(hand, held, spot.point, turned(reference, turn)), turn
+
+
+def free_place(
+    hand: Thing, held: Thing, sense: Sense, against: Thing, part: str, reference: Quaternion
+) -> tuple[Triple, Triple]:
+    """Return the first place and turn at which what the hand holds touches a thing and nothing else touches anything.
+
+    Raises:
+        ActionFailedError: If there is none.
+    """
+    here, seen = sense.hands[hand.name], as_seen(held, sense)
+    first: Way | None = None
+    for spot in sorted(spots(as_seen(against, sense), part), key=lambda each: _away(here, each)):
+        for offset, turn in hand_places(here, seen, spot, reference):
+            if here.arm is None:
+                return offset, turn
+            found = here.arm.way(offset, turn, {held.name})
+            if not found.problem:
+                return offset, turn
+            first = first or found
+    reason = f"{held.name} to the {part} of {against.name} by {hand.name}"
+    if first is None:
+        raise ActionFailedError("unreachable", f"{reason}: the hand would point backwards")
+    raise ActionFailedError(first.problem, f"{reason}: {first.detail}")
+
+
+def _away(hand: HandSense, spot: Spot) -> float:
+    return float(np.linalg.norm(np.subtract(spot.point, hand.position)))
+
+
+def place_of(hand: HandSense, held: Thing, point: Triple, orientation: Quaternion) -> Triple:
+    """Return the place of a hand, turned to ``orientation``, at which what it holds touches a point from above [m]."""
+    spin = product(orientation, inverse(hand.orientation))
+    there = replace(held, orientation=product(spin, held.orientation))
+    arm = matrix(spin) @ (np.asarray(held.position) + middle(held) - np.asarray(hand.position))
+    goal = np.asarray(point) + (0.0, 0.0, _depth_below(there)) - arm
+    first = np.asarray(hand.position) - np.asarray(hand.offset)
+    return _triple(goal - first)
+
+
+def move_held(hand: Thing, held: Thing, sense: Sense, offset: Triple, turn: Triple) -> Behaviour:
+    """Move a hand with what it holds to a place by any free way; a hand that flies goes straight."""
+    here = sense.hands[hand.name]
+    if here.arm is not None:
+        return (yield from go(hand, sense, offset, turn, {held.name}))
+    way, spin = np.subtract(offset, here.offset), np.subtract(turn, here.turn)
+    duration = 1.875 * max(float(np.linalg.norm(way)), float(np.abs(spin).max())) / STRAIGHT_SPEED
+    shares = np.array([share for share, _ in least_jerk(duration)])[:, None]
+    offsets, turns = np.asarray(here.offset) + shares * way, np.asarray(here.turn) + shares * spin
+    return (yield from follow(hand, sense, offsets, turns))
+
+
+def _depth_below(thing: Thing) -> float:
+    """Return how far a thing reaches straight below its middle [m]."""
+    geom = thing.shape.geoms[0]
+    if len(thing.shape.geoms) == 1 and geom.type == "ellipsoid":
+        local = matrix(thing.orientation).T @ np.array([0.0, 0.0, 1.0])
+        return float(1.0 / np.sqrt(((local / np.asarray(geom.size)) ** 2).sum()))
+    return support(thing, np.array([0.0, 0.0, -1.0])) + float(middle(thing)[2])
+
+
+def _yaw(orientation: Quaternion) -> float:
+    w, _, _, z = orientation
+    return 2 * math.atan2(z, w)
+
+
+def _wrapped(angle: float) -> float:
+    return (angle + math.pi) % (2 * math.pi) - math.pi
+
+
+def _triple(values: FloatArray) -> Triple:
+    return (float(values[0]), float(values[1]), float(values[2]))
