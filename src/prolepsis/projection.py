@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, cast
 
@@ -13,9 +13,10 @@ from prolepsis.errors import InputError, LogError, ScenarioError
 from prolepsis.kernels import are_kept
 from prolepsis.log import Log
 from prolepsis.log_files import read_log_files, write_log_files
+from prolepsis.own_robot import OwnRobot
 from prolepsis.saved import read_timeline_files, write_timeline_files
 from prolepsis.scenario import Parameter, Scenario
-from prolepsis.scenario_file import DEFAULT_PARTICLES
+from prolepsis.scenario_file import DEFAULT_PARTICLES, read_robot, write_robot
 from prolepsis.scene.scene import Scene
 from prolepsis.sealed import check_replaceable, read_sealed, to_json, write_sealed
 from prolepsis.terms import Value, format_value, parse_term
@@ -76,10 +77,16 @@ class Projection:
         write_log_files(self.log, path)
         (path / WORLD).write_text(self.world, encoding="utf-8")
         write_timeline_files(self.timeline, path)
-        names = _copy_names(self.scenario.situation)
-        for name, source in names.items():
+        scenario = self.scenario
+        own = scenario.robot if isinstance(scenario.robot, OwnRobot) else None
+        models = () if own is None else (scenario.path.parent / own.file,)
+        names = list(_copy_names((*scenario.situation, *models)).items())
+        for name, source in names:
             shutil.copyfile(source, path / name)
-        (path / SCENARIO).write_text(to_json(_scenario_row(self.scenario, list(names))), encoding="utf-8")
+        if own is not None:
+            scenario = replace(scenario, robot=replace(own, file=names[-1][0]))
+        situation = [name for name, _ in names[: len(scenario.situation)]]
+        (path / SCENARIO).write_text(to_json(_scenario_row(scenario, situation)), encoding="utf-8")
 
 
 def project(
@@ -113,12 +120,14 @@ def project(
     # What physics imports takes a moment, and a wrong scenario is refused before it.
     from prolepsis.fluents import recognize
     from prolepsis.programs import check_units, read_program
+    from prolepsis.robots.loading import load_robot
     from prolepsis.scene import compile_world, compose
     from prolepsis.simulation import simulate
 
     if any(knowledge.is_a(name, "Liquid") for name in knowledge.objects) and not are_kept():
         tell("compiling the kernels of liquids, once, in about a minute")
-    scene = compose(knowledge, particles=read.particles)
+    robot = load_robot(read.robot, read.path.parent) if isinstance(read.robot, OwnRobot) else None
+    scene = compose(knowledge, particles=read.particles, robot=robot)
     check_units(read.plan, {name: each.unit for name, each in read.parameters.items()})
     program = read_program(read.bound_plan(), scene)
     tell("building the world")
@@ -152,10 +161,10 @@ def read_scenario(scenario: Scenario | str | Path, settings: Mapping[str, float 
 
 
 def _copy_names(sources: tuple[Path, ...]) -> dict[str, Path]:
-    """Return for each situation file the name of its copy, distinct also when the files' names are not."""
+    """Return for each file the name of its copy, distinct also when the files' names are not."""
     names: dict[str, Path] = {}
     for i, source in enumerate(sources):
-        names[source.name if source.name not in names else f"{i}_{source.name}"] = source
+        names[source.name if source.name not in (*names, WORLD) else f"{i}_{source.name}"] = source
     return names
 
 
@@ -167,7 +176,7 @@ def _scenario_row(scenario: Scenario, situation: list[str]) -> dict[str, Any]:
         "bound_plan": format_value(scenario.bound_plan()),
         "parameters": {name: {"value": each.value, "unit": each.unit} for name, each in scenario.parameters.items()},
         "knowledge": dict(scenario.knowledge),
-        "robot": scenario.robot,
+        "robot": write_robot(scenario.robot) if isinstance(scenario.robot, OwnRobot) else scenario.robot,
         "duration": scenario.duration,
         "seed": scenario.seed,
         "draw": scenario.draw,
@@ -179,6 +188,7 @@ def _scenario_row(scenario: Scenario, situation: list[str]) -> dict[str, Any]:
 def _scenario(row: dict[str, Any], path: Path) -> Scenario:
     parameters: Mapping[str, Any] = row["parameters"]
     plan = parse_term(row["plan"], where=SCENARIO)
+    robot: Any = row["robot"]
     if not isinstance(row["seed"], int):
         raise ScenarioError(f"{SCENARIO}: seed is not a whole number")
     return Scenario(
@@ -187,7 +197,9 @@ def _scenario(row: dict[str, Any], path: Path) -> Scenario:
         plan=plan,
         parameters={name: Parameter(value=each["value"], unit=each["unit"]) for name, each in parameters.items()},
         knowledge=row["knowledge"],
-        robot=row["robot"],
+        robot=read_robot(cast("dict[str, Any]", row["robot"]), SCENARIO)
+        if isinstance(row["robot"], dict)
+        else row["robot"],
         duration=row["duration"],
         seed=row["seed"],
         draw=row.get("draw", False),

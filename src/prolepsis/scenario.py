@@ -12,7 +12,9 @@ from pathlib import Path
 
 from prolepsis.errors import InputError, PlanError, ScenarioError, UnknownNameError
 from prolepsis.knowledge import KnowledgeBase
-from prolepsis.scenario_file import DEFAULT_PARTICLES, ParameterTable, read_file
+from prolepsis.knowledge.turtle import Document, parse_turtle
+from prolepsis.own_robot import OwnRobot
+from prolepsis.scenario_file import DEFAULT_PARTICLES, ParameterTable, read_file, read_robot
 from prolepsis.terms import Term, Value, Variable, parse_term
 from prolepsis.units import read_quantity, si_symbol, to_si, unit_of
 
@@ -49,8 +51,9 @@ class Scenario:
     """Value of each variable of the plan."""
     knowledge: Mapping[str, float | str] = field(default_factory=dict[str, "float | str"])
     """Values of the knowledge base that are replaced, ``{"eggshell3.friction": 0.4}``."""
-    robot: str | None = None
-    """Robot that is added to the situation, one of ``ROBOTS``; None if the situation has all that it needs."""
+    robot: str | OwnRobot | None = None
+    """Robot that is added to the situation: one of ``ROBOTS`` or the user's own; None if the situation has all that it
+    needs."""
     duration: float | None = None
     """Simulated time [s]; None for the plan's length plus settling."""
     seed: int = 0
@@ -72,7 +75,7 @@ class Scenario:
             raise ScenarioError(
                 f"{self.path}: particles = {self.particles}: allowed: {FEWEST_PARTICLES} to {MOST_PARTICLES}"
             )
-        if self.robot is not None and self.robot not in ROBOTS:
+        if isinstance(self.robot, str) and self.robot not in ROBOTS:
             raise UnknownNameError.of("robot", self.robot, ROBOTS, f"{self.path}: robot")
         for name, parameter in self.parameters.items():
             if isinstance(parameter.value, float) and not math.isfinite(parameter.value):
@@ -118,7 +121,7 @@ class Scenario:
             plan=_plan(content.plan, path),
             parameters={n: _parameter(v, f"{path}: parameter {n}") for n, v in content.parameters.items()},
             knowledge={n: _plain(v) for n, v in content.knowledge.items()},
-            robot=content.robot,
+            robot=read_robot(content.robot, str(path)) if isinstance(content.robot, dict) else content.robot,
             duration=None if content.duration is None else float(content.duration),
             seed=content.seed,
             draw=content.draw,
@@ -156,14 +159,21 @@ class Scenario:
         Raises:
             UnknownNameError: If a parameter or a knowledge value names nothing that is there.
         """
-        robot = ROBOTS.get(self.robot) if self.robot is not None else None
-        base = KnowledgeBase.load(*([robot] if robot is not None else []), *self.situation)
+        base = KnowledgeBase.load(*self._robot_sources(), *self.situation)
         for name, parameter in self.parameters.items():
             if isinstance(parameter.value, str) and parameter.value not in base.individuals:
                 raise UnknownNameError.of(
                     "individual", parameter.value, base.individuals, f"{self.path}: parameter {name}"
                 )
         return base.with_values(self.knowledge) if self.knowledge else base
+
+    def _robot_sources(self) -> list[Path | Document]:
+        """Return what says that the robot is there."""
+        if isinstance(self.robot, OwnRobot):
+            # These lines are in no file.
+            return [replace(parse_turtle(self.robot.statements(self.path), self.path), lines={})]
+        file = ROBOTS.get(self.robot or "")
+        return [] if file is None else [file]
 
     def bound_plan(self) -> Value:
         """Return the plan with each variable replaced by its number (SI) or the name of its individual."""

@@ -8,9 +8,20 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, StrictBool, StrictFloat, StrictInt, StrictStr, ValidationError
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    StrictBool,
+    StrictFloat,
+    StrictInt,
+    StrictStr,
+    TypeAdapter,
+    ValidationError,
+)
 
 from prolepsis.errors import ScenarioError
+from prolepsis.own_robot import OwnGripper, OwnRobot
 
 Number = StrictInt | StrictFloat
 
@@ -36,7 +47,7 @@ class ScenarioFile(BaseModel):
     seed: Annotated[StrictInt, Field(ge=0)] = 0
     draw: StrictBool = False
     particles: StrictInt = DEFAULT_PARTICLES
-    robot: StrictStr | None = None
+    robot: StrictStr | dict[str, Any] | None = None
     parameters: dict[str, Number | StrictStr | ParameterTable] = {}
     knowledge: dict[str, bool | Number | StrictStr] = {}
     monitors: dict[str, list[StrictStr]] = {}
@@ -65,6 +76,32 @@ def read_file(path: Path) -> ScenarioFile:
         raise ScenarioError(f"{path}: {_first_problem(error, table)}") from error
 
 
+def read_robot(table: Mapping[str, Any], where: str) -> OwnRobot:
+    """Return what a ``[robot]`` table says.
+
+    Raises:
+        ScenarioError: If it is wrong.
+    """
+    try:
+        return TypeAdapter(OwnRobot).validate_python(table)
+    except ValidationError as error:
+        problem = error.errors(include_url=False)[0]
+        keys = [str(key) for key in problem["loc"]]
+        place = f"{where}: robot" + "".join(f".{key}" for key in keys[:-1])
+        known = OwnGripper.__dataclass_fields__ if keys[0] == "grippers" else OwnRobot.__dataclass_fields__
+        if problem["type"] == "unexpected_keyword_argument":
+            raise ScenarioError(f"{place}: unknown key {keys[-1]!r}; known: {', '.join(known)}") from None
+        if problem["type"] == "missing" and not keys[-1].isdigit():
+            needed = "palm, fingers, tool" if keys[0] == "grippers" else "file, grippers"
+            raise ScenarioError(f"{place}: the key {keys[-1]!r} is missing; needed: {needed}") from None
+        raise ScenarioError(f"{place}.{keys[-1]}: {problem['msg'].lower()}") from None
+
+
+def write_robot(robot: OwnRobot) -> dict[str, Any]:
+    """Return the table from which ``read_robot`` makes the same robot."""
+    return TypeAdapter(OwnRobot).dump_python(robot, mode="json")
+
+
 def _first_problem(error: ValidationError, table: Mapping[str, Any]) -> str:
     problem = error.errors(include_url=False)[0]
     keys = [str(key) for key in problem["loc"]]
@@ -79,6 +116,8 @@ def _first_problem(error: ValidationError, table: Mapping[str, Any]) -> str:
     if keys[0] == "monitors" and len(keys) > 1:
         return f'monitors: {keys[1]}: give a list of names, such as ["load", "speed"]'
     given: object = table.get(keys[0])
+    if keys[0] == "robot":
+        return f"robot = {given!r}: give a name, or a table [robot] with file and grippers"
     if keys[0] == "draw":
         return f"draw = {given!r}: must be true or false"
     return f"{keys[0]} = {given!r}: {problem['msg'].lower()}"

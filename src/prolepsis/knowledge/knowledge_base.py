@@ -36,11 +36,11 @@ class KnowledgeBase:
     """(individual, property) to a value that replaces whatever else is known."""
 
     @classmethod
-    def load(cls, *paths: Path | str, check: bool = True) -> KnowledgeBase:
-        """Return the knowledge base of the built-in ontology and the Turtle files at ``paths``.
+    def load(cls, *sources: Path | str | Document, check: bool = True) -> KnowledgeBase:
+        """Return the knowledge base of the built-in ontology and further Turtle files.
 
         Args:
-            paths: Turtle files of a situation, or of further classes.
+            sources: Paths of the Turtle files of a situation, or of further classes; or what was read already.
             check: Whether to refuse an inconsistent one; only for looking at what is wrong.
 
         Raises:
@@ -48,7 +48,7 @@ class KnowledgeBase:
             KnowledgeError: If a file, a value or the structure of parts is wrong.
             InconsistentError: If the axioms contradict each other.
         """
-        documents = documents_of([Path(path) for path in paths])
+        documents = documents_of([Path(s) if isinstance(s, str) else s for s in sources])
         vocabulary = read_vocabulary(documents)
         refuse_unknown_names(documents, vocabulary)
         situation = read_situation(documents, vocabulary)

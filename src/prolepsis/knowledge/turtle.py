@@ -71,6 +71,15 @@ def read_turtle(path: Path, *, built_in: bool = False) -> Document:
         raise KnowledgeError(f"{path}: cannot read the Turtle file: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise KnowledgeError(f"{path}: the Turtle file is not UTF-8 text") from error
+    return parse_turtle(text, path, built_in=built_in)
+
+
+def parse_turtle(text: str, path: Path, *, built_in: bool = False) -> Document:
+    """Return the document that ``text`` is; ``path`` is where it is from.
+
+    Raises:
+        KnowledgeError: If its syntax is wrong.
+    """
     graph = Graph(bind_namespaces="none")
     try:
         graph.parse(data=text, format="turtle", publicID=path.absolute().as_uri())
@@ -92,6 +101,6 @@ def _reason(error: BadSyntax) -> str:
     return f"{error._why} at {rest[:40]!r}" if rest else str(error._why)  # pyright: ignore[reportPrivateUsage]
 
 
-def documents_of(paths: Sequence[Path]) -> tuple[Document, ...]:
-    """Return the built-in ontology and then the files at ``paths``."""
-    return (*built_in_documents(), *(read_turtle(path) for path in paths))
+def documents_of(sources: Sequence[Path | Document]) -> tuple[Document, ...]:
+    """Return the built-in ontology and then the files at the paths in ``sources``, or what was read already."""
+    return (*built_in_documents(), *(s if isinstance(s, Document) else read_turtle(s) for s in sources))

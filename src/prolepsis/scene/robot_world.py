@@ -6,15 +6,12 @@ from collections.abc import Callable
 from typing import Any
 
 from prolepsis.engine import mujoco
+from prolepsis.robots.grippers import COUPLING_SOLIMP, COUPLING_SOLREF
 from prolepsis.robots.model import robot_model
 from prolepsis.robots.robot import Arm, Joint, Robot
 from prolepsis.scene.scene import Scene
 from prolepsis.shapes.from_model import touches
 from prolepsis.things import Thing
-
-COUPLING_SOLREF = (0.004, 1.0)
-COUPLING_SOLIMP = (0.99, 0.9999, 0.001, 0.5, 2.0)
-"""Of fingers that the model does not couple: as stiff as a linkage, or a tenth of the pad force is lost."""
 
 
 def add_robot(spec: Any, robot: Robot, thing: Thing) -> None:

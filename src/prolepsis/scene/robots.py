@@ -58,10 +58,7 @@ def robot_things(
     for name in known:
         if name not in stated:
             raise KnowledgeError(f"{whole.name} ({whole.kind}) has no part {name}; state :{name} a :Gripper")
-    openings = {name: kb.quantity(name, "opening") for name in known}
-    for name, opening in openings.items():
-        if opening > read.gaps[name].greatest:
-            raise KnowledgeError(f"{name}: opening {opening:g} m, allowed up to {read.gaps[name].greatest:.3g} m")
+    openings = {name: _opening(kb, name, read.gaps[name].greatest) for name in known}
     data, _ = read.at_home(openings)
     robot_thing = replace(whole, roles=whole.roles | {"Robot"}, mass=float(read.model.body_subtreemass[0]))
     made: dict[str | None, list[Thing]] = {None: [robot_thing]}
@@ -105,6 +102,16 @@ def robot_things(
             )
         )
     return tuple(thing for things in made.values() for thing in things)
+
+
+def _opening(kb: KnowledgeBase, name: str, greatest: float) -> float:
+    """Return how far a gripper is open at the start [m]: as stated, or as usual if it opens so far."""
+    opening = kb.quantity(name, "opening")
+    if kb.value(name, "opening").origin == "class default":
+        return min(opening, greatest)
+    if opening > greatest:
+        raise KnowledgeError(f"{name}: opening {opening:g} m, allowed up to {greatest:.3g} m")
+    return opening
 
 
 def _placed(whole: Thing, position: Triple, orientation: Quaternion) -> tuple[Triple, Quaternion]:
