@@ -197,9 +197,7 @@ def _scenario(row: dict[str, Any], path: Path) -> Scenario:
         plan=plan,
         parameters={name: Parameter(value=each["value"], unit=each["unit"]) for name, each in parameters.items()},
         knowledge=row["knowledge"],
-        robot=read_robot(cast("dict[str, Any]", row["robot"]), SCENARIO)
-        if isinstance(row["robot"], dict)
-        else row["robot"],
+        robot=read_robot(cast("dict[str, Any]", robot), SCENARIO) if isinstance(robot, dict) else robot,
         duration=row["duration"],
         seed=row["seed"],
         draw=row.get("draw", False),
