@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import lru_cache
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
 from prolepsis.fields.kept import kept_array
 from prolepsis.kernels import njit
@@ -43,7 +42,10 @@ def _grid(vertices: FloatArray, triangles: IntArray) -> FloatArray:
     inside = np.zeros(extent, dtype=np.bool_)
     near = np.full(extent, np.inf)
     _scan(vertices, triangles, origin, step, near, inside)
-    transform = cast("Callable[[BoolArray], FloatArray]", distance_transform_edt)
+    # Imported here: few scenes have meshes.
+    from scipy import ndimage  # pyright: ignore[reportMissingTypeStubs]
+
+    transform = cast("Callable[[BoolArray], FloatArray]", cast(Any, ndimage).distance_transform_edt)
     far = np.where(inside, transform(inside), transform(~inside)) * step
     distance = np.where(near <= BAND * step, near, np.maximum(far, BAND * step))
     signed = np.where(inside, -distance, distance)

@@ -22,9 +22,9 @@ from prolepsis.things import FloatArray, Thing
 
 CONTACT_STEP = 2.5e-4
 """Substep [s] while something is near an intact shell: an egg's impact lasts some 1.5 ms, so six substeps."""
-CONTACT_PHASE = 0.61
-"""Greatest phase by which a shell that bounces on its contact goes on in a substep [rad]: that of an egg at its pole.
-What is lighter and stiffer takes shorter ones."""
+CONTACT_PHASE = 0.66
+"""Greatest phase by which a shell that bounces on its contact goes on in a substep [rad]: that of a light egg, of 50 g,
+at its pole. What is lighter and stiffer takes shorter ones."""
 BETWEEN_SAMPLES = 0.9
 """Margin of the screen for contacts between its sampled points [1]."""
 LIGHT = 0.2

@@ -5,13 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scipy import spatial  # pyright: ignore[reportMissingTypeStubs]
 
 from prolepsis.fields.signed_distance import Field, field_of
 from prolepsis.fields.solids import bounded
 from prolepsis.things import BoolArray, FloatArray, IntArray, Shape
 
-_library: Any = spatial
 CLEARANCE = 0.55
 """Distance of a particle that comes out from the surface [spacings]: at rest on it, it is a half."""
 APART = 0.9
@@ -48,7 +46,7 @@ class SpongeSurface:
         outward = self._slope(points, SMALL * spacing)
         points += outward * (CLEARANCE * spacing - distance)[:, None]
         kept = np.ones(len(points), dtype=np.bool_)
-        pairs: IntArray = _library.cKDTree(points).query_pairs(APART * spacing, output_type="ndarray")
+        pairs: IntArray = _tree(points).query_pairs(APART * spacing, output_type="ndarray")
         for a, b in sorted(pairs.tolist()):
             kept[b] &= not kept[a]
         return points[kept], outward[kept]
@@ -88,5 +86,13 @@ class SpongeSurface:
 
 def nearest_of(targets: FloatArray, points: FloatArray) -> tuple[FloatArray, IntArray]:
     """Return the distance of points, shape (n, 3), to the nearest target, and which it is, shape (n,) each."""
-    found: tuple[FloatArray, IntArray] = _library.cKDTree(targets).query(points)
+    found: tuple[FloatArray, IntArray] = _tree(targets).query(points)
     return found
+
+
+def _tree(points: FloatArray) -> Any:
+    # Imported here: the import takes longer than a scene without sponges.
+    from scipy import spatial  # pyright: ignore[reportMissingTypeStubs]
+
+    library: Any = spatial
+    return library.cKDTree(points)

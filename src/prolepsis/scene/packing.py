@@ -6,7 +6,6 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from scipy import spatial  # pyright: ignore[reportMissingTypeStubs]
 
 from prolepsis.things import BoolArray, FloatArray, IntArray
 
@@ -91,6 +90,9 @@ def relaxed(points: FloatArray, spacing: float, confine: Callable[[FloatArray], 
 
 def _pairs(points: FloatArray, reach: float) -> IntArray:
     """Return the pairs of points nearer than ``reach`` [m], shape (m, 2)."""
+    # Imported here: the import takes longer than an egg, which needs no more than a lattice.
+    from scipy import spatial  # pyright: ignore[reportMissingTypeStubs]
+
     library: Any = spatial
     found: IntArray = library.cKDTree(points).query_pairs(reach, output_type="ndarray")
     return found
