@@ -157,12 +157,14 @@ def bind(parameters: tuple[Parameter, ...], term: Term, scene: Scene, usage: str
     return bound
 
 
-def _refuse_beyond(parameters: tuple[Parameter, ...], bound: Mapping[str, Any], term: Term) -> None:
-    """Refuse what is more than the hand can that an action names."""
+def _refuse_beyond(parameters: tuple[Parameter, ...], bound: dict[str, Any], term: Term) -> None:
+    """Refuse what is given and more than the hand can that an action names; what is left out is what it can at most."""
     for hand in (each for each in bound.values() if isinstance(each, Thing) and "Gripper" in each.roles):
-        for parameter in parameters:
+        for k, parameter in enumerate(parameters):
             limit = hand.quantities.get(LIMITS.get(parameter.kind, ""))
-            if limit is not None and bound[parameter.name] > limit:
+            if limit is not None and k >= len(term.args):
+                bound[parameter.name] = min(bound[parameter.name], limit)
+            elif limit is not None and bound[parameter.name] > limit:
                 unit = UNITS[parameter.kind]
                 raise PlanError(
                     f"plan: {parameter.name} of {term} is {bound[parameter.name]:g} {unit}, "
