@@ -89,6 +89,8 @@ def rigid_shapes(observation: Observation) -> tuple[RigidShape, ...]:
     for segment, tick in enumerate(observation.segments.tolist()):
         carrier = observation.log.carrier[tick]
         for body in np.flatnonzero(carrier == np.arange(len(carrier))).tolist():
+            if observation.has_role(body, "Panel"):
+                continue  # A wall that has given way counts by the whole's own shape.
             found.setdefault((body, _carried(observation, body, np.flatnonzero(carrier == body))), []).append(segment)
     shapes: list[RigidShape] = []
     for (body, parts), segments in found.items():

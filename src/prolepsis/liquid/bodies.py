@@ -44,7 +44,9 @@ class WallBodies:
         first = [0]
         parts: list[Solids] = []
         for body, carrier in enumerate([int(thing) for thing in state.body_thing]):
-            if carrier < 0 or self._is_shard(state, body, int(carrier)):
+            # A wall that gives way holds liquid by the whole's own shape.
+            panel = carrier >= 0 and "Panel" in things[carrier].roles
+            if carrier < 0 or panel or self._is_shard(state, body, int(carrier)):
                 continue
             # The own shape of an intact whole stands for its pieces.
             whole = state.world.is_body(things[carrier])

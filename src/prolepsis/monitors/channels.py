@@ -108,6 +108,12 @@ def height(watched: Watched, thing: Thing) -> float:
     return watched.state.place(thing.name)[2]
 
 
+@monitor("YieldingBowl", default=True)
+def dent(watched: Watched, thing: Thing) -> float:
+    """Return how far its rim stays out of place where it has given way most [m]."""
+    return watched.state.attribute(thing.name, "dent")
+
+
 def _attribute(name: str, doc: str) -> None:
     def read(watched: Watched, thing: Thing) -> float:
         return watched.state.attribute(thing.name, name)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from prolepsis.phenomena import absorbing, breaking, flowing, membrane, opening, sticking, wetting
+from prolepsis.phenomena import absorbing, breaking, denting, flowing, membrane, opening, sticking, wetting
 from prolepsis.phenomena.phenomenon import Attach, Detachment, Draw, Phenomenon
 
 PHENOMENA: tuple[Attach, ...] = (
     breaking.attach,
+    denting.attach,
     flowing.attach,
     opening.attach,
     membrane.attach,

@@ -118,7 +118,7 @@ class Breaking(Phenomenon):
         self._last: tuple[int, dict[int, float]] = (-1, {})
         self._version = -1
         self._watched: dict[int, Fragment] = {}
-        self._contact = ShellContact(thing, quantities["plateStiffness"], quantities["poleStiffnessRatio"])
+        self._contact = ShellContact(state, thing, quantities["plateStiffness"], quantities["poleStiffnessRatio"])
         self._contact.update(state, None)
         stiffest = 2 * quantities["plateStiffness"] * math.sqrt(quantities["poleStiffnessRatio"])
         self._contact_step = min(CONTACT_STEP, CONTACT_PHASE * math.sqrt(thing.mass / stiffest))

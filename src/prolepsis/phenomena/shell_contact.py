@@ -20,9 +20,11 @@ SAME = 0.01
 class ShellContact:
     """The contact pairs of one thing with an ellipsoidal shell."""
 
-    def __init__(self, thing: Thing, plate_stiffness: float, pole_ratio: float) -> None:
+    def __init__(self, state: State, thing: Thing, plate_stiffness: float, pole_ratio: float) -> None:
         """Look after ``thing``; the stiffnesses are those of ``local_stiffness``."""
         self._thing = thing
+        things = state.world.scene.things
+        self._surfaces = {t.name: s for t in things if (s := t.quantities.get("surfaceStiffness")) is not None}
         self._semi_axes = np.array(thing.shape.geoms[0].size)
         self._plate_stiffness, self._pole_ratio = plate_stiffness, pole_ratio
         self._stiffness = 0.0
@@ -46,7 +48,11 @@ class ShellContact:
             if geom in (model.pair_geom1[p], model.pair_geom2[p]):
                 bodies = (model.geom_bodyid[model.pair_geom1[p]], model.geom_bodyid[model.pair_geom2[p]])
                 inverse_mass = model.body_invweight0[bodies[0], 0] + model.body_invweight0[bodies[1], 0]
-                model.pair_solref[p] = direct_solref(stiffness, inverse_mass)
+                other = model.pair_geom1[p] if geom == model.pair_geom2[p] else model.pair_geom2[p]
+                soft = self._surfaces.get(model.geom(other).name.rpartition("/")[0])
+                # Two springs in series.
+                together = stiffness if soft is None else stiffness * soft / (stiffness + soft)
+                model.pair_solref[p] = direct_solref(together, inverse_mass)
                 model.pair_solimp[p] = (IMPEDANCE, IMPEDANCE, 0.001, 0.5, 2)
 
 

@@ -178,12 +178,14 @@ class Stage:
         look = {"rgba": self._colour(thing), "contype": 0, "conaffinity": 0, "density": 0}
         # A shell's inertia is defined for the thinnest piece; only the picture matters here.
         shell = {"inertia": mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL}
-        if thing.shape.profile:
+        # A wall of panels is drawn panel by panel, and of the whole only the foot.
+        panels = "panelCount" in thing.quantities
+        if thing.shape.profile and not panels:
             vertices, triangles = turned_surface(thing.shape)
             spec.add_mesh(name=f"mesh{i}", uservert=vertices.ravel(), userface=triangles.ravel(), **shell)
             body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=f"mesh{i}", material="matt", **look)
             return
-        for k, geom in enumerate(thing.shape.geoms):
+        for k, geom in enumerate(thing.shape.geoms[:1] if panels else thing.shape.geoms):
             solid = body.add_geom(
                 type=getattr(mujoco.mjtGeom, f"mjGEOM_{geom.type.upper()}"),
                 size=_drawn_size(geom),

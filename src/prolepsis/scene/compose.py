@@ -21,6 +21,7 @@ from prolepsis.scene.robots import robot_of, robot_things
 from prolepsis.scene.scene import Pool, Scene
 from prolepsis.scene.shelled import shelled_things
 from prolepsis.scene.world import HIDDEN_ROLES
+from prolepsis.scene.yielding_bowl import bowl_things
 from prolepsis.shapes import SHAPES
 from prolepsis.shapes.holes import refuse_holes
 from prolepsis.shapes.mesh import mesh
@@ -39,6 +40,7 @@ ROLES = (
     "EggShell",
     "WetThing",
     "DirtyThing",
+    "YieldingBowl",
 )
 """Classes that physics or recognition goes by."""
 COLOURS = {
@@ -49,6 +51,9 @@ COLOURS = {
     "MandM": (0.80, 0.20, 0.16, 1.0),
     "Table": (0.60, 0.44, 0.30, 1.0),
     "Bowl": (0.62, 0.78, 0.85, 0.55),
+    "GlassBowl": (0.62, 0.78, 0.85, 0.55),
+    "PaperBowl": (0.95, 0.94, 0.90, 1.0),
+    "ClayBowl": (0.62, 0.38, 0.27, 1.0),
     "Cup": (0.75, 0.42, 0.32, 1.0),
     "Block": (0.80, 0.62, 0.36, 1.0),
     "Ball": (0.78, 0.24, 0.22, 1.0),
@@ -159,6 +164,8 @@ def _things_of(
         return (whole, *(replace(part, quantities={**part.quantities, **known}) for part in hand[1:]))
     if kb.is_a(name, "Shelled"):
         return shelled_things(kb, thing, partial(_roles, kb))
+    if kb.is_a(name, "YieldingBowl"):
+        return bowl_things(thing)
     return (thing,)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from prolepsis.fields.solids import matter_of
 from prolepsis.robots.hand import HAND
 from prolepsis.scene.robot_world import add_robot, posture, robot_of_gripper, rule_contacts
 from prolepsis.scene.scene import Scene
+from prolepsis.scene.yielding_bowl import PANEL, add_panels
 from prolepsis.things import Thing, Triple
 
 SMOOTH_SOLREF = (0.005, 1.0)
@@ -99,8 +101,11 @@ def compile_world(scene: Scene) -> World:
         start |= posture(robot, name, scene)
     for thing in scene.things:
         on_robot = thing.name.split("/", 1)[0] in scene.robots
-        if thing.shape.geoms and not (thing.roles & HIDDEN_ROLES) and not on_robot:
+        if thing.shape.geoms and not (thing.roles & (HIDDEN_ROLES | {PANEL})) and not on_robot:
             add_body(spec, thing, ranks)
+    for thing in scene.things:
+        if parts := tuple(part for part in scene.parts(thing.name) if PANEL in part.roles):
+            add_panels(spec, thing, parts, partial(add_geom, spec, ranks=ranks), MAX_STEP)
     for thing in scene.things:
         if "Gripper" in thing.roles and robot_of_gripper(scene, thing) is None:
             HAND.add_joints(spec, thing.name, thing.orientation)
@@ -213,7 +218,8 @@ def _add_pairs(spec: Any, scene: Scene, thing: Thing) -> None:
             continue
         friction = min(friction_of(thing), friction_of(other))
         for i in range(len(thing.shape.geoms)):
-            for j in range(len(other.shape.geoms)):
+            # Where a wall has panels, they are what is touched.
+            for j in range(1 if "panelCount" in other.quantities else len(other.shape.geoms)):
                 pair = spec.add_pair(
                     name=f"{thing.name}/{i}:{other.name}/{j}",
                     geomname1=f"{thing.name}/{i}",

@@ -1,0 +1,37 @@
+"""``dented(b)`` and ``buckled(b)``: a part of b's wall has given way for good."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from prolepsis.fluents.intervals import debounce
+from prolepsis.fluents.observation import Observation
+from prolepsis.fluents.registry import fluent
+from prolepsis.timeline import Fact
+
+NOTICEABLE_DENT = 1.0e-3
+"""A dent is noticed when the rim stays out of place by this [m]."""
+STEADY = 0.02
+"""Shortest dent [s]."""
+
+
+@fluent("dented", "o")
+def dented(observation: Observation) -> Iterator[Fact]:
+    """A part of the thing's wall has yielded, so that it stays out of place."""
+    yield from _gave_way(observation, "dented", "yieldStress")
+
+
+@fluent("buckled", "o")
+def buckled(observation: Observation) -> Iterator[Fact]:
+    """A part of the thing's thin wall has folded, so that it stays out of place."""
+    yield from _gave_way(observation, "buckled", "bucklingForce")
+
+
+def _gave_way(observation: Observation, name: str, needed: str) -> Iterator[Fact]:
+    for thing in observation.log.things:
+        depth = observation.log.channels.get(f"{thing.name}.dent")
+        if depth is None or needed not in thing.quantities:
+            continue
+        for start, end in debounce(depth > NOTICEABLE_DENT, observation.dt, gap=STEADY, least=STEADY):
+            evidence = {"depth": float(depth[start:end].max())}
+            yield observation.fact("fluent", name, (thing.name,), (start, end), evidence)
