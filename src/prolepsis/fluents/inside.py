@@ -99,6 +99,11 @@ def sampled(observation: Observation) -> dict[int, tuple[FloatArray, FloatArray]
     return {}
 
 
+def extents(observation: Observation) -> dict[int, tuple[FloatArray, FloatArray]]:
+    """Return the bounds of shapes, by identity, filled when first needed."""
+    return {}
+
+
 def cavities(observation: Observation) -> dict[int, Cavity]:
     """Return the free space around shapes, by identity, filled when first needed."""
     return {}
@@ -165,7 +170,10 @@ def _between_bounds(
     observation: Observation, hollow: RigidShape, shape: RigidShape, middle: FloatArray, ticks: IntArray
 ) -> BoolArray:
     """Return whether the body's middle is within the box around the container, at each of some ticks."""
-    low, high = hollow.bounds()
+    known = observation.of(extents)
+    if id(hollow) not in known:
+        known[id(hollow)] = hollow.bounds()
+    low, high = known[id(hollow)]
     place = _relative(observation, hollow.body, shape, middle, ticks)
     inside: BoolArray = np.all((place > low) & (place < high), axis=1, keepdims=False)
     return inside

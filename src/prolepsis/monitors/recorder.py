@@ -150,9 +150,12 @@ class Recorder:
         first, second = np.where(flipped, geoms[:, 1], geoms[:, 0]), np.where(flipped, geoms[:, 0], geoms[:, 1])
         span = int(geoms.max(initial=0)) + 1
         key = ((tick * len(self.versions) + version) * span + first) * span + second
-        _, sample, group = np.unique(key[keep], return_index=True, return_inverse=True)
-        rows = np.stack([tick[keep], low[keep], high[keep]], axis=1)[sample]
-        group = group.ravel()
+        # In one sort, in which substeps stay in their order; two calls of numpy's unique take three times as long.
+        order = np.argsort(key[keep], kind="stable")
+        begins = np.diff(key[keep][order], prepend=-1) != 0
+        group = np.empty(len(order), dtype=np.int64)
+        group[order] = np.cumsum(begins) - 1
+        rows = np.stack([tick[keep], low[keep], high[keep]], axis=1)[order[begins]]
         size = len(rows)
         weight = (normal_force * step)[keep]
         total = np.bincount(group, weights=weight, minlength=size)
@@ -165,9 +168,9 @@ class Recorder:
         length = np.linalg.norm(normal, axis=1, keepdims=True)
         # The peak is that of the pair at one substep, so contact points of the same substep add up first.
         substep = np.repeat(np.arange(len(self.contacts)), counts)[active][keep]
-        moment, at = np.unique(group * len(self.contacts) + substep, return_inverse=True)
-        peak = np.zeros(size)
-        np.maximum.at(peak, moment // len(self.contacts), np.bincount(at.ravel(), weights=normal_force[keep]))
+        moments = begins | (np.diff(substep[order], prepend=-1) != 0)
+        at_once = np.bincount(np.cumsum(moments) - 1, weights=normal_force[keep][order])
+        peak = np.maximum.reduceat(at_once, np.flatnonzero(begins[moments])) if size else np.zeros(0)
         return Contacts(
             tick=rows[:, 0],
             a=rows[:, 1],
