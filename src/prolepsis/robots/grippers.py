@@ -65,7 +65,7 @@ def make_fingers_open(spec: Any, model: Any, given: OwnGripper, pads: tuple[str,
             raise ScenarioError(f"{where}: the finger joint {finger} has no range")
         low, high = (float(value) for value in model.jnt_range[number])
         if _opens_backwards(model, finger, pads, low, high):
-            low, high = -high, -low
+            low, high = 0.0 - high, 0.0 - low
             joint.axis, joint.range = [-float(value) for value in joint.axis], [low, high]
             joint.ref = -joint.ref
             _turn_couplings(spec, finger)
