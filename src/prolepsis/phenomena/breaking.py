@@ -273,7 +273,9 @@ class Breaking(Phenomenon):
 
     def _near(self, state: State) -> bool:
         """Return whether anything is near the intact thing."""
-        return state.data.ncon > 0 and bool((state.data.contact.geom == state.model.geom(self._geom).id).any())
+        geom = state.model.geom(self._geom).id
+        # As lists: there are few contacts before it breaks.
+        return state.data.ncon > 0 and any(geom in pair for pair in state.data.contact.geom.tolist())
 
 
 def _calm(graph: BondGraph) -> float:
