@@ -85,3 +85,10 @@ def test_the_chocolate_of_a_crushed_sweet_is_one_body(sweet: Log) -> None:
     assert sweet.carrier[0, kernel] == sweet.index("egg1")
     assert sweet.carrier[-1, kernel] == kernel
     assert np.isfinite(sweet.poses).all()
+
+
+def test_an_egg_that_breaks_at_once_lets_its_contents_out_where_it_is() -> None:
+    log = run(":floor a :Floor . :egg1 a :Egg ; :x 0.5 ; :z 0.0216 .", duration=0.01)  # pressed in by 0.4 mm
+    assert log.detachments.tick[0] == 0
+    inside = log.particles.position[-1]
+    assert (np.linalg.norm(inside - [0.5, 0.0, 0.0216], axis=1) < 0.04).all()

@@ -130,3 +130,20 @@ def test_a_paper_bowl_holds_water() -> None:
 def test_a_wall_that_cannot_be_divided_is_refused() -> None:
     with pytest.raises(KnowledgeError, match=r"bowl1 \(ClayBowl\): panelCount 7: allowed: 4, 5, 10 or 20"):
         scene(":floor a :Floor . :bowl1 a :ClayBowl ; :on :floor ; :panelCount 7 .")
+
+
+def test_a_bowl_is_of_glass_unless_it_is_said_otherwise() -> None:
+    bowl, glass = (scene(f":floor a :Floor . :bowl1 a :{kind} ; :on :floor .") for kind in ("Bowl", "GlassBowl"))
+    assert len(glass.things) == 2
+    assert glass.thing("bowl1").shape.geoms == bowl.thing("bowl1").shape.geoms
+    assert glass.thing("bowl1").quantities == bowl.thing("bowl1").quantities
+
+
+def test_a_bowl_may_be_smaller_than_the_egg_that_lies_on_it() -> None:
+    turtle = (
+        ":floor a :Floor . :bowl1 a :{kind} ; :on :floor ; :radius 0.025 ; :height 0.02 . :egg1 a :Egg ; :on :bowl1 ."
+    )
+    for kind in ("GlassBowl", "PaperBowl", "ClayBowl"):
+        timeline = recognize(run(turtle.format(kind=kind), duration=0.5))
+        assert timeline.ask("holds_at(supports(bowl1, egg1), 0.4)") and not timeline.ask("holds(contains(bowl1, _), _)")
+        assert not timeline.ask("holds(broken(egg1), _)")

@@ -35,6 +35,8 @@ class Hold:
     """Unit vector out of the holder's surface there, in the holder's frame, shape (3,)."""
     strength: float
     """Pull at which it comes off at the start [N]."""
+    slides: bool = False
+    """Whether it slides and holds on where the two are pressed together harder than it holds, as a film does."""
     lasting: float = math.inf
     """Time in which it loses all but a third of its strength [s]."""
     since: float = 0.0
@@ -87,17 +89,25 @@ class Adhesion(Phenomenon):
             # What presses them together is no pull.
             pull = math.hypot(max(along, 0.0), float(np.linalg.norm(force - along * out)))
             hold.pull += share * (pull - hold.pull)
-            if hold.pull > hold.strength_at(time):
+            if hold.pull > hold.strength_at(time) and hold.slides and self._pressed(state, hold) > hold.strength:
+                hold.pull, hold.since = 0.0, time
+                self._renew(state, hold)
+            elif hold.pull > hold.strength_at(time):
                 state.data.eq_active[self._numbers[number]] = 0
-                self.holds.remove(hold)
+                self.holds = [kept for kept in self.holds if kept is not hold]
         self._report(state)
         return []
 
-    def renew(self, state: State, hold: Hold) -> None:
+    def _pressed(self, state: State, hold: Hold) -> float:
+        """Return the force with which contact presses the two bodies together [N]."""
+        bodies = {int(state.model.body(self._carrier(state, thing)).id) for thing in (hold.holder, hold.held)}
+        return sum(force for _, a, b, force in state.normal_forces() if {a, b} == bodies)
+
+    def _renew(self, state: State, hold: Hold) -> None:
         """Let a hold be where the two things are now, without strain."""
         hold.place_on_holder = self._seen_from_holder(state, hold)
-        if hold in self._joined:
-            state.move_joint(self._numbers[self._joined.index(hold)], *self._places(state, hold))
+        number = next(k for k, joined in enumerate(self._joined) if joined is hold)
+        state.move_joint(self._numbers[number], *self._places(state, hold))
 
     def _join(self, state: State) -> None:
         """Make the joints anew."""

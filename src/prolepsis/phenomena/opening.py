@@ -38,7 +38,7 @@ class Opening(Phenomenon):
         turn = body.xmat.reshape(3, 3)
         self._places = (state.particles.position[self._inside] - body.xpos) @ turn
         self._version = -1
-        self._pose, self._motion = np.zeros(7), np.zeros(6)
+        self._pose, self._motion = state.pose(thing.name), np.zeros(6)
         self._ticks = 0
 
     def tick(self, state: State) -> None:

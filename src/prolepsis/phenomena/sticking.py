@@ -26,8 +26,6 @@ SLOW = 0.02
 """Speed relative to each other below which two things stick [m/s]."""
 BELOW = 0.5
 """What lies under a piece, its normal within 60 degrees of up, carries it: nothing need stick [1]."""
-MOST_PRESSED = 2.0
-"""While they are pressed together harder than they stick, by this factor, a hold bears nothing [1]."""
 
 
 def attach(state: State, draw: Draw) -> list[Sticking]:
@@ -54,11 +52,10 @@ class Sticking(Adhesion):
         self._due = False
 
     def tick(self, state: State) -> None:
-        """Look at what is pressed together, now and then at what touches."""
+        """Let it be looked at what has come to stick together."""
+        del state
         self._ticks += 1
         self._due = True
-        if state.particles is not None:
-            self._press(state)
 
     def act(self, state: State) -> list[Detachment]:
         """Find what has come to stick together, and take apart what is pulled too hard."""
@@ -156,26 +153,8 @@ class Sticking(Adhesion):
             place=(point - pose[:3]) @ matrix(pose[3:]),
             normal=out @ matrix(base[3:]),
             strength=strength,
+            slides=True,
             lasting=liquid["viscosity"] * length / thin,
             since=float(state.data.time),
         )
         return [hold]
-
-    def _press(self, state: State) -> None:
-        """Let what is pressed together, as in a grip, stick where it is by now, so that it does so without strain."""
-        wet = [hold for hold in self.holds if math.isfinite(hold.lasting)]
-        if not wet:
-            return
-        bodies = {self._body(state, hold): hold for hold in wet}
-        forces: dict[tuple[int, int], float] = {}
-        for _, a, b, force in state.normal_forces():
-            for pair in ((a, b), (b, a)):
-                forces[pair] = forces.get(pair, 0.0) + force
-        for pair, hold in bodies.items():
-            if forces.get(pair, 0.0) > MOST_PRESSED * hold.strength:
-                hold.since = float(state.data.time)
-                self.renew(state, hold)
-
-    def _body(self, state: State, hold: Hold) -> tuple[int, int]:
-        a, b = (self._things[int(state.carrier[i])].name for i in (hold.holder, hold.held))
-        return int(state.model.body(a).id), int(state.model.body(b).id)

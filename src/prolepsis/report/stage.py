@@ -161,9 +161,9 @@ class Stage:
         return np.min(ends, axis=(0, 1)), np.max(ends, axis=(0, 1))
 
     def _is_vessel(self, i: int) -> bool:
-        """Return whether a thing is an open container: not an egg, whose shell is its own."""
-        roles = self.log.things[i].roles
-        return "Container" in roles and "Breakable" not in roles
+        """Return whether a thing is an open container that is drawn as glass: not an egg, nor what is drawn by panels."""
+        thing = self.log.things[i]
+        return "Container" in thing.roles and "Breakable" not in thing.roles and "panelCount" not in thing.quantities
 
     def _chain(self, thing: Thing) -> frozenset[int]:
         chain: set[int] = set()
