@@ -127,7 +127,7 @@ def project(
     if any(knowledge.is_a(name, "Liquid") for name in knowledge.objects) and not are_kept():
         tell("compiling the kernels of liquids, once, in about a minute")
     robot = load_robot(read.robot, read.path.parent) if isinstance(read.robot, OwnRobot) else None
-    scene = compose(knowledge, particles=read.particles, robot=robot)
+    scene = replace(compose(knowledge, particles=read.particles, robot=robot), folder=read.path.parent)
     check_units(read.plan, {name: each.unit for name, each in read.parameters.items()})
     program = read_program(read.bound_plan(), scene)
     tell("building the world")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from prolepsis.errors import PlanError, UnknownNameError
@@ -30,6 +31,7 @@ KINDS: Mapping[str, str] = {
     "count": "[1]",
     "displacement": "list of three lengths along the world's axes [m]",
     "place": "list of two lengths along the world's axes [m]",
+    "file": "name of a file, such as 'wipe.csv', seen from the scenario",
 }
 """What an argument of an action may be, with its unit."""
 
@@ -195,6 +197,8 @@ def _bind(parameter: Parameter, value: Value, term: Term, scene: Scene) -> Any:
         if isinstance(value, tuple) and len(value) == 3 and all(isinstance(v, int | float) for v in value):
             return tuple(_finite(float(v), where) for v in value if isinstance(v, int | float))
         raise PlanError(f"{where} must be a {KINDS['displacement']}, such as [0.2, 0, 0.1]")
+    if parameter.kind == "file":
+        return _bind_file(value, where, scene)
     if parameter.kind == "force" and isinstance(value, str):
         newtons = scene.number(value, "force")
         if newtons is None:
@@ -221,6 +225,14 @@ def _bind_thing(parameter: Parameter, value: Value, where: str, scene: Scene) ->
         if thing.name == value:
             return thing
     raise UnknownNameError.of(KINDS[parameter.kind].rsplit(" ", 1)[-1], value, (t.name for t in choices), where)
+
+
+def _bind_file(value: Value, where: str, scene: Scene) -> Path:
+    if not isinstance(value, str):
+        raise PlanError(f"{where} must be the {KINDS['file']}, not {value}")
+    if not (scene.folder / value).is_file():
+        raise PlanError(f"{where}: there is no file {scene.folder / value}")
+    return scene.folder / value
 
 
 def _finite(number: float, where: str) -> float:

@@ -141,6 +141,10 @@ class Arm(Protocol):
         """Return how far along x the pads' middle is from the hand's frame at a gap of ``width`` [m]."""
         ...
 
+    def place(self, joints: FloatArray) -> tuple[Triple, Triple]:
+        """Return place and turn of the hand with the given coordinates [rad], shape (n,)."""
+        ...
+
     def path(self, offsets: FloatArray, turns: FloatArray) -> Way:
         """Return the joints along places and turns one after the other, each shape (k, 3), from where they are."""
         ...

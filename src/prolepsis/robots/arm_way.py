@@ -12,7 +12,7 @@ from prolepsis.programs.commands import Way
 from prolepsis.robots.gap import Gap
 from prolepsis.robots.inverse import ArmKinematics, Found
 from prolepsis.robots.robot import Arm
-from prolepsis.robots.turned import conjugated, inverse, turned
+from prolepsis.robots.turned import conjugated, inverse, turn_of, turned
 from prolepsis.state import State, compose_pose, relative_pose
 from prolepsis.things import FloatArray, IntArray, Quaternion, Triple
 
@@ -70,6 +70,12 @@ class ArmWays:
     def pad_shift(self, width: float) -> float:
         """Return how far along x the pads' middle is from the hand's frame at a gap of ``width`` [m]."""
         return self._gap.shift(width)
+
+    def place(self, joints: FloatArray) -> tuple[Triple, Triple]:
+        """Return place and turn of the hand with the given coordinates [rad], shape (n,)."""
+        pose = [float(v) for v in compose_pose(self._mount_pose(), self._kinematics.pose(joints))]
+        x, y, z = self._first
+        return (pose[0] - x, pose[1] - y, pose[2] - z), turn_of(self._reference, (pose[3], pose[4], pose[5], pose[6]))
 
     def path(self, offsets: FloatArray, turns: FloatArray) -> Way:
         """Return the joints along places and turns, each shape (k, 3)."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from prolepsis.domain import Domain
 from prolepsis.errors import UnknownNameError
@@ -39,6 +40,8 @@ class Scene:
     """[m/s^2]"""
     robots: Mapping[str, Robot] = field(default_factory=dict[str, Robot])
     """What each robot is that has a model, by name; free hands are none of these."""
+    folder: Path = Path()
+    """Where the paths of files start that a plan names."""
 
     def thing(self, name: str) -> Thing:
         """Return the thing called ``name``.
