@@ -131,15 +131,17 @@ def _reach_by_arm(
     first: Way | None = None
     for grip in grips(hand, object, sense, height, arm, reference):
         width = max(min(grip.width + MARGIN, hand.quantities["maxOpening"]), sense.hands[hand.name].opening)
-        for place, opening in ((grip.offset, grip.width), (grip.offset, width), (grip.before(STANDOFF), width)):
-            found = arm.way(place, grip.turn, {object.name}, opening)
+        # Only the last stretch is straight: before it, the object is in the way as anything is.
+        there, before = (grip.offset, {object.name}), (grip.before(STANDOFF), set[str]())
+        for (place, ignored), opening in ((there, grip.width), (there, width), (before, width)):
+            found = arm.way(place, grip.turn, ignored, opening)
             if found.problem:
                 first = first or found
                 break
         else:
             if sense.hands[hand.name].opening < width:
                 sense = yield from open_to(hand, width, sense)
-            sense = yield from go(hand, sense, grip.before(STANDOFF), grip.turn, {object.name})
+            sense = yield from go(hand, sense, grip.before(STANDOFF), grip.turn, ())
             step = _triple(np.subtract(grip.offset, grip.before(STANDOFF)))
             return (yield from travel(hand, sense, step, 2.0, speed))
     assert first is not None

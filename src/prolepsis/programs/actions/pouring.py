@@ -9,16 +9,20 @@ import numpy as np
 
 from prolepsis.errors import PlanError
 from prolepsis.programs.action import HAND, Parameter, action
-from prolepsis.programs.actions.motion import travel
+from prolepsis.programs.actions.motion import stay, travel
+from prolepsis.programs.actions.striking import reference_of
 from prolepsis.programs.actions.turning import RATE
-from prolepsis.programs.commands import Behaviour, HandTarget, Sense
+from prolepsis.programs.commands import Behaviour, Sense
+from prolepsis.programs.following import follow
 from prolepsis.programs.lip import Below, heights, lip_of
 from prolepsis.programs.outline import outline
-from prolepsis.programs.turning import TICK, course, matrix, rolled
+from prolepsis.programs.turning import course, matrix, rolled
 from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.robots.hand import rotate
+from prolepsis.robots.turned import inverse, product, turn_of, turned
+from prolepsis.scene.robot_world import robot_of_gripper
 from prolepsis.scene.scene import Scene
-from prolepsis.things import FloatArray, Thing
+from prolepsis.things import FloatArray, Quaternion, Thing
 
 LEVEL = 0.05
 """The hand's forward and left axes may rise by this much and still count as level [1]."""
@@ -31,8 +35,7 @@ APPROACH_SPEED, APPROACH_ACCELERATION = 0.4, 1.5
 def _can_pour(
     scene: Scene, *, hand: Thing, source: Thing, target: Thing, height: float, offset: float, **_: object
 ) -> None:
-    """Refuse a pouring that has no lip, no target, no sensible place or no level axis to turn about."""
-    del scene
+    """Refuse a pouring that has no lip, no target, no sensible place, or for a flying hand no level axis."""
     if not 0.0 <= height <= FARTHEST:
         raise PlanError(f"plan: height {height:g} m of pour, allowed 0 to {FARTHEST:g} m")
     if abs(offset) > FARTHEST:
@@ -44,6 +47,8 @@ def _can_pour(
     for thing in (source, target):
         if not len(outline(thing)):
             raise PlanError(f"plan: {thing.name} has no body to pour {'from' if thing is source else 'to'}")
+    if robot_of_gripper(scene, hand) is not None:
+        return
     if max(abs(rotate(hand.orientation, axis)[2]) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))) > LEVEL:
         raise PlanError(f"plan: {hand.name} is not level, so it cannot pour; allowed: pitch 0 and roll 0, any yaw")
     way = np.abs(np.asarray(target.position) - np.asarray(hand.position)).max()
@@ -79,43 +84,37 @@ def pour(
 ) -> Behaviour:
     """Tilt the held source over the target, its lip at a height over the target's top, offset past its middle."""
     state = sense.hands[hand.name]
-    yaw, pitch, roll = state.turn
-    level = matrix(hand.orientation)
+    reference = reference_of(scene, hand)
+    ahead = turned(reference, (state.turn[0], 0.0, 0.0))
+    level = matrix(ahead)
     left, here = level[:, 1], np.asarray(state.position)
     top = _points(sense, [target])
     middle = (top.min(axis=0) + top.max(axis=0)) / 2
     side = 1 if float((middle - here) @ left) >= 0.0 else -1
-    # Everything that moves, in the hand's frame as it would be without the roll that there is already.
-    upright = level @ rolled(roll)
+    # Everything that moves, in a level frame at the hand, as it would be if the source stood upright.
+    lean = _lean(sense.orientation(source.name), level)
+    upright = level @ rolled(lean)
     held = (_points(sense, [source]) - here) @ upright
     moved = np.concatenate([held, (_points(sense, scene.parts(hand.name)) - here) @ upright])
     lip = lip_of(held, side)
     below = Below(half_forward=_half(top @ level[:, 0]), half_aside=_half(top @ left), height=float(np.ptp(top[:, 2])))
-    angles = course(-side * roll, angle, rate)
+    angles = course(-side * lean, angle, rate)
     lifts = heights(moved, lip, below, angles, side=side, offset=offset, height=height)
     goal = np.array([middle[0], middle[1], top[:, 2].max()]) + side * offset * left
-    turned = np.array([level @ rolled(-side * a) @ lip for a in angles])
-    way = goal - turned + lifts[:, None] * (0.0, 0.0, 1.0) - here
+    tilted = np.array([level @ rolled(-side * a) @ lip for a in angles])
+    way = goal - tilted + lifts[:, None] * (0.0, 0.0, 1.0) - here
     sense = yield from _approach(hand, sense, way[0])
     # The way is seen from where the hand is, the commands from where they were: the servo may lag by a little.
-    offsets = np.asarray(state.offset) + way
-    velocities = np.diff(offsets, axis=0, prepend=offsets[:1]) / TICK
-    spins = np.diff(angles, prepend=angles[:1]) / TICK
-    for k, now in enumerate(angles):
-        sense = yield (
-            HandTarget(
-                hand=hand.name,
-                offset=_triple(offsets[k]),
-                velocity=_triple(velocities[k]),
-                turn=(yaw, pitch, -side * float(now)),
-                spin=(0.0, 0.0, -side * float(spins[k])),
-            ),
-        )
-    still = HandTarget(hand=hand.name, offset=_triple(offsets[-1]), turn=(yaw, pitch, -side * float(angles[-1])))
-    sense = yield (still,)
-    for _ in range(max(round(duration / TICK) - 1, 0)):
-        sense = yield ()
-    return sense
+    grip = product(inverse(ahead), state.orientation)
+    turns = [turn_of(reference, product(turned(ahead, (0.0, 0.0, -side * float(a) - lean)), grip)) for a in angles]
+    sense = yield from follow(hand, sense, np.asarray(state.offset) + way, np.unwrap(turns, axis=0))
+    return (yield from stay(duration, sense))
+
+
+def _lean(orientation: Quaternion, level: FloatArray) -> float:
+    """Return by how much a vessel has turned already about the forward axis of a level frame [rad]."""
+    up = level.T @ matrix(orientation)[:, 2]
+    return math.atan2(-float(up[1]), float(up[2]))
 
 
 def _approach(hand: Thing, sense: Sense, way: FloatArray) -> Behaviour:
@@ -136,8 +135,3 @@ def _points(sense: Sense, things: Sequence[Thing]) -> FloatArray:
 
 def _half(values: FloatArray) -> float:
     return float(np.ptp(values)) / 2
-
-
-def _triple(values: FloatArray) -> tuple[float, float, float]:
-    x, y, z = (float(value) for value in values)
-    return (x, y, z)
