@@ -1,10 +1,10 @@
 # What a user and a developer run. Every target sets up what it needs first; `make` alone lists them.
 PY := .venv/bin/python
 
-.PHONY: help demo test laws bench setup setup-dev lock clean
+.PHONY: help demo test laws bench experiments setup setup-dev lock clean
 
 help:  ## list the targets
-	@sed -n 's/^\([a-z-]*\):.*## */\1\t/p' $(MAKEFILE_LIST) | while IFS="$$(printf '\t')" read -r name doc; do printf '  make %-8s %s\n' "$$name" "$$doc"; done
+	@sed -n 's/^\([a-z-]*\):.*## */\1\t/p' $(MAKEFILE_LIST) | while IFS="$$(printf '\t')" read -r name doc; do printf '  make %-11s %s\n' "$$name" "$$doc"; done
 
 demo: setup  ## the paper's questions about a dropped and a grasped egg, answered; a video in out/
 	@$(PY) examples/demo.py
@@ -21,6 +21,9 @@ laws: setup-dev  ## the longer suites
 
 bench: setup-dev  ## the benchmarks, as one table
 	@$(PY) benchmarks/run.py
+
+experiments: setup  ## run the experiments and write docs/experiments; ARGS='--only grasping'
+	@$(PY) examples/experiments/pages.py $(ARGS)
 
 setup:  ## what `make demo` needs: Debian packages, .venv, the locked packages
 	@tools/setup.sh runtime
