@@ -16,7 +16,7 @@ from prolepsis.robots.turned import conjugated, inverse, turn_of, turned
 from prolepsis.state import State, compose_pose, relative_pose
 from prolepsis.things import FloatArray, IntArray, Quaternion, Triple
 
-FINEST = 0.1
+FINEST = 0.03
 """Two postures that are looked at for collisions differ by at most this much in each joint [rad]."""
 VIA_HEIGHTS = (0.1, 0.2, 0.3)
 """If the straight way is blocked, the arm goes through a place this far above the goal [m], or above where it is."""
