@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ from prolepsis.knowledge import KnowledgeBase
 from prolepsis.monitors.channels import MONITORS
 from prolepsis.phenomena import PHENOMENA
 from prolepsis.programs import ACTIONS, read_program
+from prolepsis.projection import project
 from prolepsis.scene import compile_world, compose
 from prolepsis.simulation import simulate
 from prolepsis.terms import parse_term
@@ -51,6 +53,15 @@ def test_an_object_is_a_few_lines_of_turtle(tmp_path: Path) -> None:
     log = simulate(compile_world(scene), read_program(parse_term("wait(0.3)"), scene))
     timeline = recognize(log, domain=scene.domain)
     assert timeline.ask("holds(supports(plate1,block1), T), holds(supports(floor,plate1), T)")
+
+
+def test_a_robot_is_a_model_and_a_table(tmp_path: Path) -> None:
+    shutil.copy(Path(__file__).parents[1] / "examples" / "own_arm.xml", tmp_path / "my_arm.xml")
+    (tmp_path / "kitchen.ttl").write_text("@prefix : <https://w3id.org/prolepsis#> . :floor a :Floor .")
+    (tmp_path / "scenario.toml").write_text(example("A robot", "toml"), encoding="utf-8")
+    log = project(tmp_path / "scenario.toml").log
+    palm = log.poses[:, log.index("robot1/palm"), 2]
+    assert palm[-1] - palm[0] == pytest.approx(0.05, abs=2e-3)
 
 
 def test_an_action_is_one_generator() -> None:

@@ -114,6 +114,24 @@ def test_a_robot_without_one_body_that_carries_all_gets_one(tmp_path: Path) -> N
     assert model.body_gravcomp[2] == 1.0
 
 
+def test_fingers_that_turn_part_as_the_model_says() -> None:
+    right = OwnGripper(
+        palm="r_gripper_palm_link",
+        fingers=("r_gripper_l_finger_joint", "r_gripper_r_finger_joint"),
+        pads=("r_gripper_l_finger_tip_link", "r_gripper_r_finger_tip_link"),
+        tool=(0.18, 0.0, 0.0),
+        max_force=80.0,
+    )
+    base = ("base_x", "base_y", "base_yaw")
+    own_pr2 = OwnRobot(file=str(PR2.file), base=base, torso=("torso_lift_joint",), grippers={"rightGripper": right})
+    robot = load_robot(own_pr2, HERE)
+    read, known = robot_model(robot).gaps["rightGripper"], robot_model(PR2).gaps["rightGripper"]
+    assert read.gaps == pytest.approx(known.gaps) and read.places == pytest.approx(known.places, abs=1e-9)
+    assert [joint.name for joint in robot.arms[0].joints] == [joint.name for joint in PR2.arms[0].joints]
+    # The other arm and the head, which nothing names, hold still.
+    assert {"torso_lift_joint", "head_pan_joint", "l_elbow_flex_joint"} < {joint.name for joint in robot.torso}
+
+
 def test_objects_are_held_at_the_middle_of_the_pads() -> None:
     read = robot_model(PR2)
     for width in (0.02, 0.045, 0.08):

@@ -100,18 +100,16 @@ def test_an_arm_is_where_it_was_recorded(tmp_path: Path) -> None:
     log = replayed(tmp_path, ROBOT, columns, "rightGripper")
     assert log.actions[0].outcome == "done"
     seen = pads_of(log)[np.rint(time * 1000).astype(int) + log.actions[0].start]
-    assert np.linalg.norm(seen[:, :3] - places, axis=1).max() < 3e-3
+    # At up to 4 m/s^2, a servo of 10 Hz lags by 4 / (2 pi 10)^2 = 1 mm; those of several joints add up.
+    assert np.linalg.norm(seen[:, :3] - places, axis=1).max() < 5e-3
     assert np.abs((seen[:, 3:] * turns).sum(axis=1)).min() > math.cos(0.02)
     assert float(log.actions[0].evidence["behind"]) < 3e-3
 
 
 def test_joints_of_an_arm_are_replayed_too(tmp_path: Path) -> None:
     time = np.arange(0.0, 1.51, 0.1)
-    columns: dict[str, object] = {"time": time} | {
-        name: np.full(16, home) for name, home in zip(ARM, HOME, strict=True)
-    }
-    wave = 0.3 * (1 - np.cos(2 * np.pi * time / 3.0))
-    columns[ARM[0]] = HOME[0] - wave
+    still = {name: np.full(16, home) for name, home in zip(ARM, HOME, strict=True)}
+    columns = {**still, "time": time, ARM[0]: HOME[0] - 0.3 * (1 - np.cos(2 * np.pi * time / 3.0))}
     log = replayed(tmp_path, ROBOT, columns, "rightGripper")
     assert log.actions[0].outcome == "done"
     shoulder = np.array(composed(ROBOT).thing("pr2/r_shoulder_pan_link").position)
