@@ -127,9 +127,9 @@ def project(
     if any(knowledge.is_a(name, "Liquid") for name in knowledge.objects) and not are_kept():
         tell("compiling the kernels of liquids, once, in about a minute")
     robot = load_robot(read.robot, read.path.parent) if isinstance(read.robot, OwnRobot) else None
-    scene = replace(compose(knowledge, particles=read.particles, robot=robot), folder=read.path.parent)
+    scene = compose(knowledge, particles=read.particles, robot=robot)
     check_units(read.plan, {name: each.unit for name, each in read.parameters.items()})
-    program = read_program(read.bound_plan(), scene)
+    program = read_program(read.bound_plan(), replace(scene, folder=read.path.parent))
     tell("building the world")
     world = compile_world(scene)
     log = simulate(

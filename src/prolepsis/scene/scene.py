@@ -41,7 +41,7 @@ class Scene:
     robots: Mapping[str, Robot] = field(default_factory=dict[str, Robot])
     """What each robot is that has a model, by name; free hands are none of these."""
     folder: Path = Path()
-    """Where the paths of files start that a plan names."""
+    """Where the paths of files start that a plan names, while it is read."""
 
     def thing(self, name: str) -> Thing:
         """Return the thing called ``name``.
