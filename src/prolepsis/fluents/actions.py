@@ -20,6 +20,7 @@ ACTIONS = (
     "pour",
     "reach",
     "release",
+    "replay",
     "squeeze",
     "tilt",
     "wait",
