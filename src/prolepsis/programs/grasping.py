@@ -16,7 +16,7 @@ from prolepsis.scene.extent import extent_along, middle
 from prolepsis.things import FloatArray, Quaternion, Thing, Triple
 
 STANDOFF = 0.08
-"""Before the last straight stretch, the hand stops this far from the object [m]."""
+"""Before the last straight stretch, the hand stops this far from the object; one that flies, from its middle [m]."""
 CLEARANCE = 0.006
 """The guarded closing begins when the gap exceeds what is to be grasped by this much [m]."""
 MARGIN = 0.02

@@ -14,6 +14,7 @@ from prolepsis.programs.grasping import (
     LEAST_MARGIN,
     MARGIN,
     STANDOFF,
+    as_seen,
     grasping_width,
     grip_as_turned,
     grips,
@@ -21,6 +22,7 @@ from prolepsis.programs.grasping import (
 )
 from prolepsis.programs.profile import PEAK_ACCELERATION, PEAK_SPEED, least_jerk
 from prolepsis.robots.hand import HAND as ROBOT
+from prolepsis.scene.extent import extent_along
 from prolepsis.scene.robot_world import robot_of_gripper
 from prolepsis.scene.scene import Scene
 from prolepsis.things import FloatArray, Quaternion, Thing, Triple
@@ -132,7 +134,8 @@ def _reach_by_arm(
     for grip in grips(hand, object, sense, height, arm, reference):
         width = max(min(grip.width + MARGIN, hand.quantities["maxOpening"]), sense.hands[hand.name].opening)
         # Only the last stretch is straight: before it, the object is in the way as anything is.
-        there, before = (grip.offset, {object.name}), (grip.before(STANDOFF), set[str]())
+        back = STANDOFF + extent_along(as_seen(object, sense), np.asarray(grip.forward)) / 2
+        there, before = (grip.offset, {object.name}), (grip.before(back), set[str]())
         for (place, ignored), opening in ((there, grip.width), (there, width), (before, width)):
             found = arm.way(place, grip.turn, ignored, opening)
             if found.problem:
@@ -141,8 +144,8 @@ def _reach_by_arm(
         else:
             if sense.hands[hand.name].opening < width:
                 sense = yield from open_to(hand, width, sense)
-            sense = yield from go(hand, sense, grip.before(STANDOFF), grip.turn, ())
-            step = _triple(np.subtract(grip.offset, grip.before(STANDOFF)))
+            sense = yield from go(hand, sense, grip.before(back), grip.turn, ())
+            step = _triple(np.subtract(grip.offset, grip.before(back)))
             return (yield from travel(hand, sense, step, 2.0, speed))
     assert first is not None
     raise ActionFailedError(first.problem, f"{object.name} by {hand.name}: {first.detail}")
