@@ -20,6 +20,9 @@ from prolepsis.things import FloatArray
 JOLT = 0.005
 """A pull counts as its mean over this time [s]: what sticks takes some milliseconds to come off."""
 
+MOST_PRESSED = 2.0
+"""What slides does so while it is pressed together harder than it holds by this factor [1]."""
+
 
 @dataclass(kw_only=True, slots=True)
 class Hold:
@@ -36,7 +39,7 @@ class Hold:
     strength: float
     """Pull at which it comes off at the start [N]."""
     slides: bool = False
-    """Whether it slides and holds on where the two are pressed together harder than it holds, as a film does."""
+    """Whether it bears nothing while the two are pressed together hard, and holds on where they are then, as a film."""
     lasting: float = math.inf
     """Time in which it loses all but a third of its strength [s]."""
     since: float = 0.0
@@ -80,20 +83,26 @@ class Adhesion(Phenomenon):
         time = float(state.data.time)
         share = min(1.0, float(state.model.opt.timestep) / JOLT)
         forces = state.joint_forces()
-        for number, hold in enumerate(self._joined):
-            if not state.data.eq_active[self._numbers[number]]:
+        for joint, hold in zip(self._numbers, self._joined, strict=True):
+            if not any(kept is hold for kept in self.holds):
+                continue
+            if hold.slides and self._pressed(state, hold) > MOST_PRESSED * hold.strength:
+                state.data.eq_active[joint] = 0
+                hold.pull, hold.since = 0.0, time
+                continue
+            if not state.data.eq_active[joint]:
+                self._renew(state, hold)
+                state.data.eq_active[joint] = 1
+            if joint not in forces:
                 continue
             out = self._turn(state, hold.holder) @ hold.normal
-            force = forces[self._numbers[number]]
+            force = forces[joint]
             along = float(force @ out)
             # What presses them together is no pull.
             pull = math.hypot(max(along, 0.0), float(np.linalg.norm(force - along * out)))
             hold.pull += share * (pull - hold.pull)
-            if hold.pull > hold.strength_at(time) and hold.slides and self._pressed(state, hold) > hold.strength:
-                hold.pull, hold.since = 0.0, time
-                self._renew(state, hold)
-            elif hold.pull > hold.strength_at(time):
-                state.data.eq_active[self._numbers[number]] = 0
+            if hold.pull > hold.strength_at(time):
+                state.data.eq_active[joint] = 0
                 self.holds = [kept for kept in self.holds if kept is not hold]
         self._report(state)
         return []

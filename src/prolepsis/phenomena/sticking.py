@@ -24,6 +24,10 @@ LOOK_TICKS = 20
 """What touches is looked at every so many ticks; what did so twice sticks."""
 SLOW = 0.02
 """Speed relative to each other below which two things stick [m/s]."""
+GENTLE = 0.1
+"""What is pressed harder in one contact [N] does not begin to stick: shards that are jammed in a grip shake."""
+HARD = 1.0
+"""While any contact is harder than this [N], as in a grip that crushes, films hold nothing."""
 BELOW = 0.5
 """What lies under a piece, its normal within 60 degrees of up, carries it: nothing need stick [1]."""
 
@@ -62,12 +66,24 @@ class Sticking(Adhesion):
         if self._due:
             self._due = False
             new = self._opened(state)
+            if max((force for *_, force in state.normal_forces()), default=0.0) > HARD:
+                self._let_films_go(state)
+                return super().act(state) if not new else self._stuck(state, new)
             if self._ticks % LOOK_TICKS == 0 and state.particles is not None and state.particles.free.any():
                 new += self._wetted(state)
             if new:
-                self.stick(state, new)
-                return []
+                return self._stuck(state, new)
         return super().act(state)
+
+    def _stuck(self, state: State, new: list[Hold]) -> list[Detachment]:
+        self.stick(state, new)
+        return []
+
+    def _let_films_go(self, state: State) -> None:
+        """Give up what films hold: in a grip that crushes, joints among jammed shards would make the run diverge."""
+        if any(hold.slides for hold in self.holds):
+            self.holds = [hold for hold in self.holds if not hold.slides]
+            self._join(state)
 
     def _opened(self, state: State) -> list[Hold]:
         """Return what holds the pieces of shells that have just opened to their kernels."""
@@ -119,7 +135,8 @@ class Sticking(Adhesion):
         up = -np.asarray(state.world.scene.gravity)
         up = up / max(float(np.linalg.norm(up)), 1e-9)
         for row, (a, b) in enumerate(contact.geom.tolist()):
-            if contact.efc_address[row] < 0:
+            address = int(contact.efc_address[row])
+            if address < 0 or float(state.data.efc_force[address]) > GENTLE:
                 continue
             first, second = (self._index.get(state.model.geom(g).name.rpartition("/")[0], -1) for g in (a, b))
             for piece, other, sign in ((second, first, 1.0), (first, second, -1.0)):
