@@ -77,10 +77,10 @@ def plot_lines(
         ((_, row),) = place(np.array([across[0]]), np.array([value]))
         draw.line([(left, row), (right, row)], fill=GRID, width=SCALE)
         draw.text((left - 6 * SCALE, row), text, font=font, fill=INK, anchor="rm")
+    draw.rectangle((left, top, right, bottom), outline=INK, width=SCALE)
     for line, colour in zip(lines, _colours(len(lines)), strict=True):
         points = place(*_thinned(line, right - left))
         draw.line(points if len(points) > 1 else [*points, *points], fill=colour, width=3 * SCALE // 2)
-    draw.rectangle((left, top, right, bottom), outline=INK, width=SCALE)
     draw.text(((left + right) / 2, height - 6 * SCALE), x_label, font=font, fill=INK, anchor="md")
     turned = Image.new("RGB", (height, 16 * SCALE), "white")
     ImageDraw.Draw(turned).text((height / 2, 8 * SCALE), y_label, font=font, fill=INK, anchor="mm")
