@@ -91,6 +91,17 @@ class BondGraph:
         membrane, bending = self.stresses((self.response @ wrench).reshape(-1, 6))
         return membrane / self.strengths + bending / self.bending_strength
 
+    def stored(self, points: FloatArray, forces: FloatArray) -> float:
+        """Return twice the elastic energy that contact forces store in the bonds [J]: forces times their ways.
+
+        Args:
+            points: Points of attack in the common frame [m], shape (c, 3).
+            forces: Forces in the same frame [N], shape (c, 3).
+        """
+        wrench = np.einsum("cij,cj->i", self.wrenches_per_force(points), forces)
+        components = self.response @ wrench
+        return float(components @ (components / _stiffness(self)))
+
     def stresses(self, components: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the greatest tensile membrane stress and the bending stress of each bond [Pa], each (..., m).
 
@@ -199,6 +210,13 @@ def _strain(graph: BondGraph) -> tuple[FloatArray, FloatArray]:
             turned = np.cross(np.eye(3)[k], arm)
             strain[rows, :3, node, 3 + k] = sign * np.einsum("mij,mj->mi", axes, turned)
         strain[rows, 3:, node, 3:] = sign * axes
+    return strain.reshape(6 * m, 6 * n), _stiffness(graph)
+
+
+def _stiffness(graph: BondGraph) -> FloatArray:
+    """Return the stiffness of each component of each bond [N/m, N m], shape (6 m,)."""
+    first, second = graph.bonds.T
+    length = np.linalg.norm(graph.centres[second] - graph.centres[first], axis=1)
     e, t, w = graph.youngs_modulus, graph.thickness, graph.widths
     g = e / (2 * (1 + graph.poisson_ratio))
     stiffness = np.stack(
@@ -212,7 +230,7 @@ def _strain(graph: BondGraph) -> tuple[FloatArray, FloatArray]:
         ],
         axis=1,
     )
-    return strain.reshape(6 * m, 6 * n), stiffness.ravel()
+    return stiffness.ravel()
 
 
 def _rigid_modes(centres: FloatArray) -> FloatArray:
