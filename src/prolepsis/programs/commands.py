@@ -149,9 +149,16 @@ class Arm(Protocol):
         """Return the joints along places and turns one after the other, each shape (k, 3), from where they are."""
         ...
 
-    def way(self, offset: Triple, turn: Triple, ignoring: Collection[str], opening: float | None = None) -> Way:
+    def way(
+        self,
+        offset: Triple,
+        turn: Triple,
+        ignoring: Collection[str],
+        opening: float | None = None,
+        held: str | None = None,
+    ) -> Way:
         """Return how the hand gets to a place by any way on which nothing is touched, but by its fingers what is
-        ignored; with its pads ``opening`` [m] apart, or as they are."""
+        ignored; with its pads ``opening`` [m] apart, or as they are, and with what it holds."""
         ...
 
 

@@ -55,15 +55,17 @@ def follow(hand: Thing, sense: Sense, offsets: FloatArray, turns: FloatArray) ->
     return (yield (_target(hand, joints[-1], 0 * rates[-1], offsets[-1], turns[-1]),))
 
 
-def go(hand: Thing, sense: Sense, offset: Triple, turn: Triple, ignoring: Collection[str]) -> Behaviour:
-    """Go to a place by any way on which the arm touches nothing but what is ignored.
+def go(
+    hand: Thing, sense: Sense, offset: Triple, turn: Triple, ignoring: Collection[str], held: str | None = None
+) -> Behaviour:
+    """Go to a place by any way on which the arm, and what it holds, touches nothing but what is ignored.
 
     Raises:
         ActionFailedError: If there is no such way, or the arm is pressed against something on it.
     """
     arm = sense.hands[hand.name].arm
     assert arm is not None, "a hand that flies goes straight"
-    way = arm.way(offset, turn, ignoring)
+    way = arm.way(offset, turn, ignoring, held=held)
     _refuse(hand, way)
     for start, end in zip(way.joints[:-1], way.joints[1:], strict=True):
         duration = least_time(np.abs(end - start), arm.speeds, arm.accelerations)

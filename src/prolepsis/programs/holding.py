@@ -24,6 +24,8 @@ RIM_POINTS = 16
 """Places round a rim that are tried."""
 RIM = 1.0e-3
 """Points within this height of the topmost belong to the rim [m]."""
+CLEAR = 2.0e-3
+"""So far above the place it is looked whether anything but what is held would touch something [m]."""
 FACING = math.radians(80.0)
 """The hand points at most this far away from where its shoulder sees the place."""
 STRAIGHT_SPEED = 0.3
@@ -110,7 +112,7 @@ def free_place(
         for offset, turn in hand_places(here, seen, spot, reference):
             if here.arm is None:
                 return offset, turn
-            found = here.arm.way(offset, turn, {held.name})
+            found = here.arm.way((offset[0], offset[1], offset[2] + CLEAR), turn, {held.name}, held=held.name)
             if not found.problem:
                 return offset, turn
             first = first or found
@@ -138,7 +140,7 @@ def move_held(hand: Thing, held: Thing, sense: Sense, offset: Triple, turn: Trip
     """Move a hand with what it holds to a place by any free way; a hand that flies goes straight."""
     here = sense.hands[hand.name]
     if here.arm is not None:
-        return (yield from go(hand, sense, offset, turn, {held.name}))
+        return (yield from go(hand, sense, offset, turn, {held.name}, held.name))
     way, spin = np.subtract(offset, here.offset), np.subtract(turn, here.turn)
     duration = 1.875 * max(float(np.linalg.norm(way)), float(np.abs(spin).max())) / STRAIGHT_SPEED
     shares = np.array([share for share, _ in least_jerk(duration)])[:, None]

@@ -47,6 +47,7 @@ class ArmWays:
         self._starts = _starts(kinematics)
         self._state: State | None = None
         self._scratch: Any = None
+        self._held: tuple[int, int, int, FloatArray] | None = None
         self._version = -1
 
     def bind(self, state: State, places: IntArray, links: Collection[int], fingers: Collection[int]) -> None:
@@ -89,11 +90,19 @@ class ArmWays:
             joints.append(now)
         return Way(joints=np.array(joints))
 
-    def way(self, offset: Triple, turn: Triple, ignoring: Collection[str], opening: float | None = None) -> Way:
+    def way(
+        self,
+        offset: Triple,
+        turn: Triple,
+        ignoring: Collection[str],
+        opening: float | None = None,
+        held: str | None = None,
+    ) -> Way:
         """Return how the hand gets to a place by any way on which nothing is touched, but by its fingers what is
-        ignored; with its pads ``opening`` [m] apart, or as they are."""
+        ignored; with its pads ``opening`` [m] apart, or as they are, and with what it holds."""
         assert self._state is not None
         self._scratch.qpos[:] = self._state.data.qpos
+        self._hold(held)
         if opening is not None:
             self._scratch.qpos[self._finger_places] = self._gap.length(opening) / 2
         nearest: Found | None = None
@@ -118,6 +127,23 @@ class ArmWays:
             return Way(joints=nowhere, problem="in_collision", detail=blocked)
         assert nearest is not None
         return Way(joints=nowhere, problem="unreachable", detail=_short_by(nearest))
+
+    def _hold(self, name: str | None) -> None:
+        """Take the thing called ``name``, if any, along in the search."""
+        self._held = None
+        if name is None:
+            return
+        assert self._state is not None
+        state = self._state
+        palm = state.model.body(self._palm).id
+        hand = np.array([*state.data.xpos[palm], *state.data.xquat[palm]])
+        joint = state.model.joint(name)
+        self._held = (
+            int(joint.qposadr[0]),
+            int(state.model.body(name).id),
+            palm,
+            relative_pose(hand, state.pose(name)),
+        )
 
     def _strain(self, joints: FloatArray) -> float:
         """Return how uneasy a posture is [rad^2]: far from home, near the ends of ranges."""
@@ -154,6 +180,13 @@ class ArmWays:
         model, data = self._state.model, self._scratch
         data.qpos[self._places] = joints
         mujoco.mj_kinematics(model, data)
+        own_bodies = self._bodies
+        if self._held is not None:
+            joint, body, palm, seen = self._held
+            hand = np.array([*data.xpos[palm], *data.xquat[palm]])
+            data.qpos[joint : joint + 7] = compose_pose(hand, seen)
+            own_bodies = own_bodies | {body}
+            mujoco.mj_kinematics(model, data)
         mujoco.mj_comPos(model, data)
         mujoco.mj_collision(model, data)
         things = self._state.world.scene.things
@@ -161,9 +194,9 @@ class ArmWays:
             if data.contact.dist[k] > 0.0:
                 continue
             bodies = [int(model.geom_bodyid[g]) for g in data.contact.geom[k]]
-            if (bodies[0] in self._bodies) == (bodies[1] in self._bodies):
+            if (bodies[0] in own_bodies) == (bodies[1] in own_bodies):
                 continue
-            own, other = bodies if bodies[0] in self._bodies else reversed(bodies)
+            own, other = bodies if bodies[0] in own_bodies else reversed(bodies)
             number = int(self._state.body_thing[other])
             name = things[number].name if number >= 0 else model.body(other).name
             if own not in self._fingers or name.split("/", 1)[0] not in ignoring:

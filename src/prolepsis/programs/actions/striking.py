@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from prolepsis.errors import PlanError
@@ -86,7 +88,7 @@ def _blow(length: float, speed: float) -> FloatArray:
     full = length / speed - time_up / 2
     ticks = np.arange(1, round((full + 2 * time_up) / TICK) + 1) * TICK
 
-    def risen(time: FloatArray) -> FloatArray:
+    def risen(time: Any) -> Any:
         # The integral of a smooth step up to the speed.
         share = np.clip(time / time_up, 0.0, 1.0)
         return speed * time_up * (share**3 - share**4 / 2) + speed * np.maximum(time - time_up, 0.0)
