@@ -12,12 +12,18 @@ from prolepsis.timeline import Argument, Fact
 
 _VOWELS = "aeiou"
 ACTIONS = (
+    "bring",
     "carry",
     "close",
+    "drive",
     "grasp",
+    "hit",
     "hold",
     "lift",
+    "look_at",
     "pour",
+    "press",
+    "raise_torso",
     "reach",
     "release",
     "replay",
@@ -48,7 +54,8 @@ def ing(verb: str) -> str:
         word = word[:-1]
     elif _doubles(word):
         word += word[-1]
-    return f"{word}ing{rest}"
+    # Types are lower camel case: looking_at becomes lookingAt.
+    return f"{word}ing{re.sub('_([a-z])', lambda found: found[1].upper(), rest)}"
 
 
 def _doubles(word: str) -> bool:

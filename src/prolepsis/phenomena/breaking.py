@@ -251,7 +251,7 @@ class Breaking(Phenomenon):
                 break
             graph = graph.assembled()
             if self.intact:
-                # A crack runs faster than what presses moves: the way stays, so the force falls as the shell gets softer.
+                # A crack runs faster than what presses moves: the way stays, and the force falls as the shell softens.
                 share = elastic / (elastic + graph.stored(local_points, local_forces) - stored)
         if detached:
             fragment.graph = graph

@@ -51,9 +51,12 @@ def spots(against: Thing, part: str) -> list[Spot]:
     up = np.array([0.0, 0.0, 1.0])
     top = against.position[2] + support(against, up)
     centre = np.asarray(against.position) + middle(against)
-    if part == "top":
-        return [Spot(point=(float(centre[0]), float(centre[1]), top), along=(0.0, 0.0, 0.0))]
     turn = matrix(against.orientation)
+    if part == "top":
+        # What is upright and hollow is met on the ground inside it.
+        upright = [(1.0 if turn[2, 2] > 0 else -1.0) * z for r, z in against.shape.profile if r < RIM]
+        top = against.position[2] + max(upright) if upright else top
+        return [Spot(point=(float(centre[0]), float(centre[1]), top), along=(0.0, 0.0, 0.0))]
     if against.shape.profile:
         corners = np.asarray(against.shape.profile) * (1.0, 1.0 if turn[2, 2] > 0 else -1.0)
         radius = float(corners[corners[:, 1] > corners[:, 1].max() - RIM][:, 0].mean())

@@ -161,7 +161,7 @@ class Stage:
         return np.min(ends, axis=(0, 1)), np.max(ends, axis=(0, 1))
 
     def _is_vessel(self, i: int) -> bool:
-        """Return whether a thing is an open container that is drawn as glass: not an egg, nor what is drawn by panels."""
+        """Return whether a thing is an open container drawn as glass: no egg, nor what is drawn by its panels."""
         thing = self.log.things[i]
         return "Container" in thing.roles and "Breakable" not in thing.roles and "panelCount" not in thing.quantities
 

@@ -11,8 +11,10 @@ from prolepsis.programs.action import HAND, OBJECT, Parameter, action
 from prolepsis.programs.actions.motion import stay, travel
 from prolepsis.programs.commands import ActionFailedError, Behaviour, HandTarget, Note, Sense
 from prolepsis.programs.following import follow
+from prolepsis.programs.grasping import as_seen
 from prolepsis.programs.holding import free_place, move_held, spots
 from prolepsis.programs.turning import TICK
+from prolepsis.scene.extent import middle, support
 from prolepsis.scene.robot_world import robot_of_gripper
 from prolepsis.scene.scene import Scene
 from prolepsis.things import FloatArray, Quaternion, Thing, Triple
@@ -29,6 +31,8 @@ BACK, BACK_SPEED = 0.04, 0.1
 """After it the hand goes back this far, so fast [m, m/s]."""
 APPROACH_HEIGHT, APPROACH_SPEED = 0.004, 0.02
 """A push begins this far above what it presses on, and goes down so fast [m, m/s]."""
+BRING_SPEED, BRING_ACCELERATION = 0.3, 1.0
+"""With which something is brought over something else [m/s, m/s^2]."""
 RATE = 8.0
 """Rate at which an error of the force fades [1/s]."""
 RAMP_TIME, HOLD_TIME = 1.0, 0.5
@@ -123,6 +127,22 @@ def press(
     sense = yield from stay(0.2, sense)
     sense = yield from push_down(hand, sense, force, duration)
     return (yield from travel(hand, sense, (0.0, 0.0, BACK), 2.0, BACK_SPEED))
+
+
+@action(HAND, Parameter(name="target", kind="object"), Parameter(name="height", kind="length", default=0.08))
+def bring(scene: Scene, sense: Sense, *, hand: Thing, target: Thing, height: float) -> Behaviour:
+    """Move the hand, turned as it is and with what it holds, to a height over the middle of something's top."""
+    del scene
+    here = sense.hands[hand.name]
+    seen = as_seen(target, sense)
+    x, y, _ = np.asarray(seen.position) + middle(seen)
+    top = seen.position[2] + support(seen, np.array([0.0, 0.0, 1.0]))
+    way = np.subtract((x, y, top + height), here.position)
+    up, down = max(float(way[2]), 0.0), min(float(way[2]), 0.0)
+    for step in ((0.0, 0.0, up), (float(way[0]), float(way[1]), 0.0), (0.0, 0.0, down)):
+        if any(step):
+            sense = yield from travel(hand, sense, step, BRING_ACCELERATION, BRING_SPEED)
+    return sense
 
 
 def push_down(hand: Thing, sense: Sense, force: float, duration: float) -> Behaviour:
