@@ -15,6 +15,7 @@ entry, write one of these tables into such a file (the keys below are all that t
     limit = 6                            # answers that are shown
     times = [0, 1.5, 2.0]                # of the strip of pictures [s]; without it there is none
     view = { azimuth = 150, elevation = -20 }    # of the camera [degree]
+    part = [0.5, 0.3, 1.0, 0.8]          # of the view: left, top, right, bottom as shares
     plot = [{ channels = ["egg1.force"], label = "force on the egg [N]", start = 1.0, end = 2.0 }]
     must = ["broken(egg1)"]              # what is expected at the end: fluents, or goals with holds or occurs
     must_not = ["spilled(yolk1)"]        # and what is not; a table at the end of the page sets this beside the outcome
@@ -90,6 +91,7 @@ class Run(Strict):
     limit: int = SHOWN
     times: list[Number] = []
     view: dict[str, Number] = {}
+    part: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)
     plot: list[Plot] = []
     must: list[str] = []
     must_not: list[str] = []
@@ -189,7 +191,7 @@ def _shown(page: str, run: Run, done: Projection) -> Iterator[str]:
         yield "```prolog\n?- " + goal.strip().replace("\n", "\n   ") + ".\n\n" + "\n".join(lines) + "\n```"
     if run.times:
         file = PAGES / "pictures" / f"{page}_{run.name}.png"
-        render_strip(done.log, file, times=[float(t) for t in run.times], size=PICTURE, **run.view)
+        render_strip(done.log, file, times=[float(t) for t in run.times], size=PICTURE, part=run.part, **run.view)
         _shrink(file)
         yield f"![{run.name} at {', '.join(f'{t:g}' for t in run.times)} s](pictures/{file.name})"
     for k, plot in enumerate(run.plot):

@@ -95,6 +95,7 @@ def render_strip(
     times: Sequence[float] | None = None,
     count: int = 5,
     size: tuple[int, int] = (360, 420),
+    part: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0),
     **view: float,
 ) -> None:
     """Write one PNG with moments side by side, each with its time.
@@ -105,22 +106,27 @@ def render_strip(
         times: Moments to show [s]; by default ``count`` evenly spaced ones.
         count: How many moments when ``times`` are not given.
         size: Width and height of each picture [pixel].
+        part: Which part of the whole view is shown: left, top, right and bottom edge as shares of it [1].
         view: ``azimuth`` and ``elevation`` of the camera [degree].
 
     Raises:
-        InputError: If the file's suffix is wrong or the log is empty.
+        InputError: If the file's suffix is wrong, the log is empty, or the part is none.
     """
     from PIL import Image
 
     target = Path(out).absolute()
     if target.suffix != ".png":
         raise InputError(f"{out}: a strip's name ends in .png")
+    if not (0.0 <= part[0] < part[2] <= 1.0 and 0.0 <= part[1] < part[3] <= 1.0):
+        raise InputError(f"part {part}: must be left < right and top < bottom, each between 0 and 1")
     ticks = _evenly(log, count) if times is None else _ticks(log, np.asarray(times))
-    shown = [
-        _with_time(picture, float(log.time[tick]))
-        for tick, picture in zip(ticks, pictures(log, ticks, size=size, **view), strict=True)
-    ]
     width, height = size
+    whole = round(width / (part[2] - part[0])), round(height / (part[3] - part[1]))
+    left, top = round(part[0] * whole[0]), round(part[1] * whole[1])
+    shown = [
+        _with_time(picture[top : top + height, left : left + width], float(log.time[tick]))
+        for tick, picture in zip(ticks, pictures(log, ticks, size=whole, **view), strict=True)
+    ]
     strip = Image.new("RGB", (len(shown) * (width + 4) - 4, height), "white")
     for i, picture in enumerate(shown):
         strip.paste(Image.fromarray(picture), (i * (width + 4), 0))
