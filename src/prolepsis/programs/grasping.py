@@ -24,7 +24,7 @@ MARGIN = 0.02
 LEAST_MARGIN = 0.002
 """... and by at least this much [m]."""
 TALL = 0.06
-"""What is taller, or a container, is grasped from the side if possible, what is lower from above [m]."""
+"""What is taller, or an open vessel, is grasped from the side if possible, what is lower from above [m]."""
 FROM_THE_SIDE = (0.0, 15.0, 30.0, 45.0, 60.0, 90.0)
 FROM_ABOVE = (60.0, 75.0, 90.0, 45.0, 30.0, 15.0, 0.0)
 """Pitches of the hand that are tried, in this order: 0 is level, 90 points down [degrees]."""
@@ -95,8 +95,8 @@ def grips(hand: Thing, object: Thing, sense: Sense, height: float, arm: Arm, ref
     place = np.asarray(seen.position) + middle(seen) + (0.0, 0.0, height)
     first = np.asarray(here.position) - np.asarray(here.offset)
     bearing = arm.bearing(_triple(place))
-    # What may be full is not grasped from above, where its content is.
-    aside = "Container" in seen.roles or extent_along(seen, np.array([0.0, 0.0, 1.0])) > TALL
+    # An open vessel may be full: its content is not to be touched.
+    aside = bool(seen.shape.profile) or extent_along(seen, np.array([0.0, 0.0, 1.0])) > TALL
     pitches = FROM_THE_SIDE if aside else FROM_ABOVE
     for pitch, roll, away, higher in itertools.product(pitches, ROLLS, ASIDE, HIGHER):
         turn = (bearing + math.radians(away), math.radians(pitch), math.radians(roll))
