@@ -182,7 +182,7 @@ def _projection(page: str, run: Run, *, keep: bool) -> Projection:
 
 def _shown(page: str, run: Run, done: Projection) -> Iterator[str]:
     """Yield what is told of one projection."""
-    yield from _heading(run, f"project --out {OUT / page / run.name}")
+    yield from _heading(run, f"project --out {shlex.quote(str(OUT / page / run.name))}")
     for goal in run.ask:
         answers = done.ask(goal)
         lines = [bindings(answer) for answer in answers[: run.limit]] or ["no"]
@@ -190,12 +190,12 @@ def _shown(page: str, run: Run, done: Projection) -> Iterator[str]:
             lines.append(f"... and {len(answers) - run.limit} more")
         yield "```prolog\n?- " + goal.strip().replace("\n", "\n   ") + ".\n\n" + "\n".join(lines) + "\n```"
     if run.times:
-        file = PAGES / "pictures" / f"{page}_{run.name}.png"
+        file = _picture(page, run.name)
         render_strip(done.log, file, times=[float(t) for t in run.times], size=PICTURE, part=run.part, **run.view)
         _shrink(file)
         yield f"![{run.name} at {', '.join(f'{t:g}' for t in run.times)} s](pictures/{file.name})"
     for k, plot in enumerate(run.plot):
-        file = PAGES / "pictures" / f"{page}_{run.name}_plot{k}.png"
+        file = _picture(page, f"{run.name}_plot{k}")
         _draw(done, plot, file)
         yield f"![{plot.label} over time](pictures/{file.name})"
 
@@ -278,6 +278,11 @@ def _settings(values: Mapping[str, Number | str | bool]) -> dict[str, float | st
 
 def _first_sentence(text: str) -> str:
     return " ".join(text.split()).partition(". ")[0].rstrip(".") + "."
+
+
+def _picture(page: str, name: str) -> Path:
+    # A link must not have spaces in it.
+    return PAGES / "pictures" / f"{page}_{name.replace(' ', '_')}.png"
 
 
 def _shrink(file: Path) -> None:
