@@ -193,10 +193,11 @@ def _bind(parameter: Parameter, value: Value, term: Term, scene: Scene) -> Any:
         if value not in PARTS:
             raise PlanError(f"{where} must be one of {', '.join(PARTS)}, not {value}")
         return value
-    if parameter.kind == "displacement":
-        if isinstance(value, tuple) and len(value) == 3 and all(isinstance(v, int | float) for v in value):
+    if parameter.kind in LISTS:
+        count, example = LISTS[parameter.kind]
+        if isinstance(value, tuple) and len(value) == count and all(isinstance(v, int | float) for v in value):
             return tuple(_finite(float(v), where) for v in value if isinstance(v, int | float))
-        raise PlanError(f"{where} must be a {KINDS['displacement']}, such as [0.2, 0, 0.1]")
+        raise PlanError(f"{where} must be a {KINDS[parameter.kind]}, such as {example}")
     if parameter.kind == "file":
         return _bind_file(value, where, scene)
     if parameter.kind == "force" and isinstance(value, str):

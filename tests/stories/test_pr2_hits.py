@@ -1,0 +1,38 @@
+"""The paper's second experiment: a held egg is hit on an edge or pressed on a table."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from prolepsis import Projection, project
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+def hit(speed: float) -> Projection:
+    return project(EXAMPLES / "pr2_hit.toml", Speed=speed)
+
+
+def test_a_gentle_blow_leaves_the_egg_whole_and_held() -> None:
+    run = hit(0.15)
+    assert run.ask(
+        "occurs(hitting(rightGripper, egg1, bowl1, _), T), occurs(colliding(bowl1, egg1), C), allen(during, C, T)"
+    )
+    assert not run.ask("holds(broken(egg1), T)")
+    assert run.ask("holds(attached(rightGripper, egg1), T), occurs(colliding(bowl1, egg1), C), after(T, C)")
+
+
+def test_a_harder_blow_opens_it_over_the_edge() -> None:
+    run = hit(0.4)
+    assert run.ask("occurs(hitting(rightGripper, egg1, bowl1, _), H), occurs(breaking(egg1), B), allen(during, B, H)")
+    assert run.ask("holds(broken(egg1), _), holds(spilled(white1), _)")
+    assert run.ask("holds(contains(bowl1, white1), T)")
+
+
+@pytest.mark.laws
+@pytest.mark.parametrize(("force", "broken"), [(10.0, False), (40.0, True)])
+def test_a_push_on_the_table_breaks_it_or_not(force: float, broken: bool) -> None:
+    run = project(EXAMPLES / "pr2_press.toml", Force=force)
+    assert bool(run.ask("holds(broken(egg1), T)")) is broken
