@@ -7,7 +7,7 @@ from tests.scenes import EGG_IN_HAND, scene
 
 from prolepsis.errors import InputError, PlanError, UnknownNameError
 from prolepsis.programs import ACTIONS, check_units, read_program
-from prolepsis.programs.commands import HandTarget, Begin, CloseGripper, Command, End, HandSense, OpenGripper, Sense
+from prolepsis.programs.commands import Begin, CloseGripper, Command, End, HandSense, HandTarget, OpenGripper, Sense
 from prolepsis.robots.hand import HAND
 from prolepsis.scene import Scene
 from prolepsis.terms import Term, parse_term

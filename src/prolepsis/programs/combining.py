@@ -25,6 +25,10 @@ def in_sequence(makers: Sequence[Maker]) -> Maker:
                 except StopIteration as stopped:
                     sense = stopped.value
                     break
+                except ActionFailedError:
+                    if ended:
+                        yield ended
+                    raise
                 fresh = False
                 # That an action has ended takes no time: the next one begins at the same tick.
                 if made and all(isinstance(command, End) and command.outcome in GOES_ON for command in made):
