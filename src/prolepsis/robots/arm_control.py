@@ -21,6 +21,8 @@ PERIOD = 4
 """Ticks between two solutions of the inverse kinematics; in between the joints go on evenly."""
 SETTLING = 60
 """Ticks after the last target of the hand in which the joints catch up with it."""
+RESTING = 4
+"""Ticks after the last command in which the servos get their targets anew."""
 CATCHING_UP = 0.3
 """Share of the hand's distance from its target that is caught up at each solution [1]."""
 BUMP = 8.0
@@ -77,6 +79,7 @@ class ArmHand:
         if self._version == state.version:
             return
         self._version = state.version
+        self._idle = min(self._idle, 2)
         self.gripper.bind(state)
         model: Any = state.model
         self._model, self._data = model, state.data
@@ -139,8 +142,10 @@ class ArmHand:
         elif self._idle > 1:
             self._rates = np.zeros(len(self._joints))
         self._idle += 1
-        self.ways.joints = self._joints
-        self._data.ctrl[self._servos] = self._joints + self._lags * self._rates
+        # An arm that holds still needs no new targets.
+        if self._idle < RESTING or self._target is not None:
+            self.ways.joints = self._joints
+            self._data.ctrl[self._servos] = self._joints + self._lags * self._rates
         self.gripper.act(dt)
 
     def _solve(self, target: HandTarget, ahead: float) -> None:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from typing import TypeVar
 
 from prolepsis.programs.commands import Command, HandSense, JointTarget, RobotSense
 from prolepsis.robots.arm_control import ArmHand
@@ -12,6 +13,31 @@ from prolepsis.robots.hand import HAND
 from prolepsis.robots.trunk_control import Trunk
 from prolepsis.scene.robot_world import robot_of_gripper
 from prolepsis.state import State
+
+S = TypeVar("S")
+
+
+class Asked(Mapping[str, S]):
+    """What is sensed, by name, found out when it is first asked for: most of it never is."""
+
+    def __init__(self, senses: Mapping[str, Callable[[], S]]) -> None:
+        """Ask ``senses`` when needed."""
+        self._senses = senses
+        self._known: dict[str, S] = {}
+
+    def __getitem__(self, name: str) -> S:
+        """Return what the one called ``name`` senses."""
+        if name not in self._known:
+            self._known[name] = self._senses[name]()
+        return self._known[name]
+
+    def __iter__(self) -> Iterator[str]:
+        """Yield all names."""
+        return iter(self._senses)
+
+    def __len__(self) -> int:
+        """Return how many there are."""
+        return len(self._senses)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -68,10 +94,9 @@ class Controls:
             for hand in self.hands.values():
                 hand.measure(forces)
 
-    def sense(self) -> tuple[dict[str, HandSense], dict[str, RobotSense]]:
-        """Return what hands and robots know of themselves."""
-        hands = {name: hand.sense() for name, hand in self.hands.items()}
-        return hands, {name: trunk.sense() for name, trunk in self.trunks.items()}
+    def sense(self) -> tuple[Mapping[str, HandSense], Mapping[str, RobotSense]]:
+        """Return what hands and robots know of themselves; each is asked when a program does, in the same tick."""
+        return Asked({n: h.sense for n, h in self.hands.items()}), Asked({n: t.sense for n, t in self.trunks.items()})
 
     def _all(self) -> Iterator[FlyingHand | ArmHand | Trunk]:
         yield from self.trunks.values()

@@ -34,6 +34,7 @@ class Trunk:
         if self._version == state.version:
             return
         self._version = state.version
+        self._fresh = True
         model: Any = state.model
         self._data = state.data
         names = [f"{self.name}/{joint}" for joint in self._joints]
@@ -51,12 +52,14 @@ class Trunk:
     def accept(self, command: Command) -> None:
         """Take a command for this robot."""
         if isinstance(command, JointTarget):
+            self._fresh = True
             self._targets |= {name: (command.joints[name], command.speeds[name]) for name in command.joints}
 
     def act(self, state: State) -> None:
         """Set the motors for the coming tick."""
         self.bind(state)
-        if len(self._servos):
+        if self._fresh and len(self._servos):
+            self._fresh = False
             self._data.ctrl[self._servos] = [
                 place + lag * speed for (place, speed), lag in zip(self._targets.values(), self._lags, strict=True)
             ]

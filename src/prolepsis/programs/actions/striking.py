@@ -69,7 +69,7 @@ def hit(
     blow = follow(hand, sense, np.asarray(above) - depths[:, None] * (0.0, 0.0, 1.0), np.tile(turn, (len(depths), 1)))
     made = next(blow)
     while True:
-        before = sense
+        met = -sense.hands[hand.name].velocity()[2]
         try:
             sense = yield made
             if sense.pressing(object.name, against.name) > TOUCH:
@@ -79,7 +79,6 @@ def hit(
             sense = ended.value
             yield from travel(hand, sense, (0.0, 0.0, BACK), 2.0, BACK_SPEED)
             raise ActionFailedError("missed", f"{object.name} did not meet {against.name}") from None
-    met = -before.hands[hand.name].velocity()[2]
     here = sense.hands[hand.name]
     sense = yield (Note(evidence={"speed": met}), HandTarget(hand=hand.name, offset=here.offset, turn=here.turn))
     sense = yield from stay(0.05, sense)
