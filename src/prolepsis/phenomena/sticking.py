@@ -27,7 +27,7 @@ SLOW = 0.02
 GENTLE = 0.1
 """What is pressed harder in one contact [N] does not begin to stick: shards that are jammed in a grip shake."""
 HARD = 1.0
-"""While any contact is harder than this [N], as in a grip that crushes, films hold nothing."""
+"""While a piece is pressed harder than this [N], as in a grip that crushes, films hold nothing."""
 BELOW = 0.5
 """What lies under a piece, its normal within 60 degrees of up, carries it: nothing need stick [1]."""
 
@@ -66,7 +66,7 @@ class Sticking(Adhesion):
         if self._due:
             self._due = False
             new = self._opened(state)
-            if max((force for *_, force in state.normal_forces()), default=0.0) > HARD:
+            if self._is_crushed(state):
                 self._let_films_go(state)
                 return super().act(state) if not new else self._stuck(state, new)
             if self._ticks % LOOK_TICKS == 0 and state.particles is not None and state.particles.free.any():
@@ -74,6 +74,11 @@ class Sticking(Adhesion):
             if new:
                 return self._stuck(state, new)
         return super().act(state)
+
+    def _is_crushed(self, state: State) -> bool:
+        """Return whether any piece is pressed hard."""
+        of, pieces = state.body_thing, self._pieces
+        return any(force > HARD and (of[a] in pieces or of[b] in pieces) for _, a, b, force in state.normal_forces())
 
     def _stuck(self, state: State, new: list[Hold]) -> list[Detachment]:
         self.stick(state, new)
