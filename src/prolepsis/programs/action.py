@@ -96,7 +96,8 @@ class ActionSpec:
         shown: list[str] = []
         for parameter in self.parameters:
             name = parameter.name[0].upper() + parameter.name[1:]
-            unit = KINDS[parameter.kind].strip("[]")
+            told = KINDS[parameter.kind]
+            unit = told.strip("[]") if told.startswith("[") else UNITS.get(parameter.kind, "")
             if isinstance(parameter.default, str):
                 shown.append(f"{name} = {parameter.default}")
             else:
