@@ -14,7 +14,7 @@ from situations import PREFIX, load
 from prolepsis.errors import InconsistentError, KnowledgeError
 from prolepsis.scenario import Scenario
 
-EXAMPLES = sorted((Path(__file__).parents[2] / "examples").rglob("*.toml"))
+EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
 EGG = ":egg1 a :Egg ."
 SHOW = """
 import hashlib, sys

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
+import threading
 import time
 from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from contextlib import contextmanager
@@ -59,9 +61,19 @@ def progress_line(wanted: bool) -> Generator[Callable[[str], None]]:
     terminal = sys.stderr.isatty()
     began = time.monotonic()
     width = 0
+    interrupted = False
+
+    def interrupt(number: int, frame: object) -> None:
+        nonlocal interrupted
+        del number, frame
+        interrupted = True
+        raise KeyboardInterrupt
 
     def show(doing: str) -> None:
         nonlocal width
+        if interrupted:
+            # What was going on, such as a callback of a compiler, has swallowed it.
+            raise KeyboardInterrupt
         elapsed = time.monotonic() - began
         if not (terminal or wanted) or (terminal and elapsed < QUIET):
             return
@@ -69,9 +81,13 @@ def progress_line(wanted: bool) -> Generator[Callable[[str], None]]:
         print(f"\r{line.ljust(width)}" if terminal else line, end="" if terminal else "\n", file=sys.stderr, flush=True)
         width = len(line)
 
+    is_main = threading.current_thread() is threading.main_thread()
+    before = signal.signal(signal.SIGINT, interrupt) if is_main else None
     try:
         yield show
     finally:
+        if is_main:
+            signal.signal(signal.SIGINT, before)
         if terminal and width:
             print("\r" + " " * width + "\r", end="", file=sys.stderr, flush=True)
 
