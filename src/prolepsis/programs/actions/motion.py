@@ -147,7 +147,8 @@ def _reach_by_arm(
             sense = yield from go(hand, sense, grip.before(back), grip.turn, ())
             step = _triple(np.subtract(grip.offset, grip.before(back)))
             return (yield from travel(hand, sense, step, 2.0, speed))
-    assert first is not None
+    if first is None:
+        raise ActionFailedError("not_graspable", f"{object.name} is too wide for {hand.name} as it lies")
     raise ActionFailedError(first.problem, f"{object.name} by {hand.name}: {first.detail}")
 
 
