@@ -65,6 +65,11 @@ def test_what_is_out_of_reach_is_an_outcome_and_ends_the_plan() -> None:
     assert "away" in str(log.actions[0].evidence["reason"])
 
 
+def test_what_is_not_held_cannot_be_hit() -> None:
+    log = run(NEAR, "sequence([hit(rightGripper, block1, table1), wait(0.1)])")
+    assert outcomes(log) == {"hit": "not_held"}
+
+
 def test_it_drives_while_its_head_turns() -> None:
     plan = "sequence([together([drive(pr2, [-0.9, -0.2], 0.3), look_at(pr2, block1)]), wait(0.2)])"
     log = run(NEAR, plan)

@@ -110,6 +110,8 @@ def free_place(
         ActionFailedError: If there is none.
     """
     here, seen = sense.hands[hand.name], as_seen(held, sense)
+    if here.grip == 0.0 or here.pad_force == 0.0:
+        raise ActionFailedError("not_held", f"{hand.name} does not hold {held.name}")
     first: Way | None = None
     for spot in sorted(spots(as_seen(against, sense), part), key=lambda each: _away(here, each)):
         for offset, turn in hand_places(here, seen, spot, reference):

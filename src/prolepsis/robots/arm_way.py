@@ -19,7 +19,7 @@ from prolepsis.things import FloatArray, IntArray, Quaternion, Triple
 FINEST = 0.03
 """Two postures that are looked at for collisions differ by at most this much in each joint [rad]."""
 VIA_HEIGHTS = (0.1, 0.2, 0.3)
-"""If the straight way is blocked, the arm goes through a place this far above the goal [m], or above where it is."""
+"""If the straight way is blocked, the arm goes through a place this far above the goal [m]."""
 SEARCHES = 6
 """Searches for a posture start where the arm is, at home, and at so many others between home and the ranges' ends."""
 REACH = 0.6
@@ -48,7 +48,6 @@ class ArmWays:
         self._state: State | None = None
         self._scratch: Any = None
         self._held: tuple[int, int, int, FloatArray] | None = None
-        self._version = -1
 
     def bind(self, state: State, places: IntArray, links: Collection[int], fingers: Collection[int]) -> None:
         """Look at a model that is new: ``places`` of the joints in qpos, bodies up to the palm, and those on it."""
@@ -129,21 +128,16 @@ class ArmWays:
         return Way(joints=nowhere, problem="unreachable", detail=_short_by(nearest))
 
     def _hold(self, name: str | None) -> None:
-        """Take the thing called ``name``, if any, along in the search."""
+        """Take the thing called ``name``, if it is a body, along in the search."""
         self._held = None
-        if name is None:
-            return
         assert self._state is not None
         state = self._state
+        if name is None or state.carrier[state.world.scene.index(name)] != state.world.scene.index(name):
+            return
         palm = state.model.body(self._palm).id
         hand = np.array([*state.data.xpos[palm], *state.data.xquat[palm]])
-        joint = state.model.joint(name)
-        self._held = (
-            int(joint.qposadr[0]),
-            int(state.model.body(name).id),
-            palm,
-            relative_pose(hand, state.pose(name)),
-        )
+        joint = int(state.model.joint(name).qposadr[0])
+        self._held = (joint, int(state.model.body(name).id), palm, relative_pose(hand, state.pose(name)))
 
     def _strain(self, joints: FloatArray) -> float:
         """Return how uneasy a posture is [rad^2]: far from home, near the ends of ranges."""

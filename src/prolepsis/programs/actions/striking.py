@@ -1,4 +1,4 @@
-"""Striking and pressing: what a hand holds is hit against something, or pressed on it; a closed hand presses, too."""
+"""Striking and pressing: what a hand holds is hit against something, pressed on it, or brought over it."""
 
 from __future__ import annotations
 
