@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -108,3 +109,13 @@ class Thing:
     """True for what never moves (floor, table, wall)."""
     quantities: Mapping[str, float] = field(default_factory=dict[str, float])
     """Named quantities in SI units: friction, breakingForce, ..."""
+
+
+def triple(values: Any) -> Triple:
+    """Return the first three of some numbers as plain floats."""
+    return float(values[0]), float(values[1]), float(values[2])
+
+
+def quaternion(values: Any) -> Quaternion:
+    """Return the first four of some numbers (w, x, y, z) as plain floats."""
+    return float(values[0]), float(values[1]), float(values[2]), float(values[3])

@@ -11,7 +11,7 @@ import numpy as np
 from prolepsis.engine import mujoco
 from prolepsis.errors import InputError, UnknownNameError
 from prolepsis.shapes.from_model import shape_of_geoms
-from prolepsis.things import IntArray, Quaternion, Thing, Triple
+from prolepsis.things import IntArray, Thing, quaternion, triple
 
 # Numpy's integers do not equal MuJoCo's enumerators, so plain integers are compared.
 _PLANE = int(mujoco.mjtGeom.mjGEOM_PLANE)
@@ -186,18 +186,10 @@ def _body_thing(model: Any, data: Any, body: int, names: list[str], driven: set[
         name=names[body],
         kind="Thing",
         shape=shape_of_geoms(model, [g for g in geoms if _collides(model, g)] or geoms),
-        position=_triple(data.xpos[body]),
-        orientation=_quaternion(data.xquat[body]),
+        position=triple(data.xpos[body]),
+        orientation=quaternion(data.xquat[body]),
         mass=float(model.body_subtreemass[body]),
         whole=None if root == body else names[int(model.body_parentid[body])],
         roles=frozenset(roles),
         fixed=bool(fixed),
     )
-
-
-def _triple(values: Any) -> Triple:
-    return float(values[0]), float(values[1]), float(values[2])
-
-
-def _quaternion(values: Any) -> Quaternion:
-    return float(values[0]), float(values[1]), float(values[2]), float(values[3])

@@ -10,7 +10,7 @@ import numpy as np
 from prolepsis.programs.commands import ActionFailedError, Arm, ArmTarget, Behaviour, HandTarget, Sense, Way
 from prolepsis.programs.profile import least_jerk, least_time
 from prolepsis.programs.turning import TICK
-from prolepsis.things import FloatArray, Thing, Triple
+from prolepsis.things import FloatArray, Thing, Triple, triple
 
 KNOTS = 40
 """Ticks between two places at which the joints of a given course are computed."""
@@ -30,10 +30,10 @@ def follow(hand: Thing, sense: Sense, offsets: FloatArray, turns: FloatArray) ->
             sense = yield (
                 HandTarget(
                     hand=hand.name,
-                    offset=_triple(offset),
-                    velocity=_triple(velocity),
-                    turn=_triple(turn),
-                    spin=_triple(spin),
+                    offset=triple(offset),
+                    velocity=triple(velocity),
+                    turn=triple(turn),
+                    spin=triple(spin),
                 ),
             )
         return sense
@@ -97,8 +97,8 @@ def _target(hand: Thing, joints: FloatArray, rates: FloatArray, offset: object, 
         hand=hand.name,
         joints=tuple(map(float, joints)),
         speeds=tuple(map(float, rates)),
-        offset=_triple(offset),
-        turn=_triple(turn),
+        offset=triple(offset),
+        turn=triple(turn),
     )
 
 
@@ -111,8 +111,3 @@ def _refuse_bump(hand: Thing, sense: Sense) -> None:
     bump = sense.hands[hand.name].bump
     if bump:
         raise ActionFailedError("in_collision", f"{hand.name}: its arm is pressed against {bump}")
-
-
-def _triple(values: object) -> Triple:
-    x, y, z = (float(value) for value in values)  # type: ignore[attr-defined]
-    return (x, y, z)

@@ -13,7 +13,7 @@ from prolepsis.programs.commands import Arm, Sense
 from prolepsis.robots.hand import rotate
 from prolepsis.robots.turned import turned
 from prolepsis.scene.extent import extent_along, middle
-from prolepsis.things import FloatArray, Quaternion, Thing, Triple
+from prolepsis.things import FloatArray, Quaternion, Thing, Triple, triple
 
 STANDOFF = 0.08
 """Before the last straight stretch, the hand stops this far from the object; one that flies, from its middle [m]."""
@@ -85,7 +85,7 @@ def grip_as_turned(hand: Thing, object: Thing, sense: Sense, height: float) -> G
     forward = rotate(here.orientation, (1.0, 0.0, 0.0))
     if here.arm is not None:
         way = way - here.arm.pad_shift(width) * forward
-    return Grip(offset=_sum(here.offset, way), turn=here.turn, width=width, forward=_triple(forward))
+    return Grip(offset=_sum(here.offset, way), turn=here.turn, width=width, forward=triple(forward))
 
 
 def grips(hand: Thing, object: Thing, sense: Sense, height: float, arm: Arm, reference: Quaternion) -> Iterator[Grip]:
@@ -94,7 +94,7 @@ def grips(hand: Thing, object: Thing, sense: Sense, height: float, arm: Arm, ref
     seen = as_seen(object, sense)
     place = np.asarray(seen.position) + middle(seen) + (0.0, 0.0, height)
     first = np.asarray(here.position) - np.asarray(here.offset)
-    bearing = arm.bearing(_triple(place))
+    bearing = arm.bearing(triple(place))
     # An open vessel may be full: its content is not to be touched.
     aside = bool(seen.shape.profile) or extent_along(seen, np.array([0.0, 0.0, 1.0])) > TALL
     pitches = FROM_THE_SIDE if aside else FROM_ABOVE
@@ -106,7 +106,7 @@ def grips(hand: Thing, object: Thing, sense: Sense, height: float, arm: Arm, ref
             continue
         forward = rotate(orientation, (1.0, 0.0, 0.0))
         offset = place + (0.0, 0.0, higher) - arm.pad_shift(width) * forward - first
-        yield Grip(offset=_triple(offset), turn=turn, width=width, forward=_triple(forward))
+        yield Grip(offset=triple(offset), turn=turn, width=width, forward=triple(forward))
 
 
 def _axis(k: int) -> Triple:
@@ -115,7 +115,3 @@ def _axis(k: int) -> Triple:
 
 def _sum(first: Triple, second: FloatArray) -> Triple:
     return (first[0] + float(second[0]), first[1] + float(second[1]), first[2] + float(second[2]))
-
-
-def _triple(values: FloatArray) -> Triple:
-    return (float(values[0]), float(values[1]), float(values[2]))

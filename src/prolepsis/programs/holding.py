@@ -12,11 +12,11 @@ from prolepsis.errors import PlanError
 from prolepsis.programs.commands import ActionFailedError, Behaviour, HandSense, Sense, Way
 from prolepsis.programs.following import follow, go
 from prolepsis.programs.grasping import as_seen
-from prolepsis.programs.profile import least_jerk
+from prolepsis.programs.profile import PEAK_SPEED, least_jerk
 from prolepsis.programs.turning import matrix
 from prolepsis.robots.turned import inverse, product, turned
 from prolepsis.scene.extent import middle, support
-from prolepsis.things import FloatArray, Quaternion, Thing, Triple
+from prolepsis.things import Quaternion, Thing, Triple, triple
 
 PITCHES = (20.0, 30.0, 10.0, 45.0, 0.0, 60.0)
 """Pitches of the hand that are tried when it hits or presses with what it holds [degrees]."""
@@ -76,7 +76,7 @@ def spots(against: Thing, part: str) -> list[Spot]:
     for k, sign in ((0, 1), (0, -1), (1, 1), (1, -1)):
         local = np.asarray(box.position) + sign * box.size[k] * np.eye(3)[k] + box.size[2] * up
         place, along = np.asarray(against.position) + turn @ local, turn[:, 1 - k]
-        found.append(Spot(point=(float(place[0]), float(place[1]), top), along=_triple(along)))
+        found.append(Spot(point=(float(place[0]), float(place[1]), top), along=triple(along)))
     return found
 
 
@@ -138,7 +138,7 @@ def place_of(hand: HandSense, held: Thing, point: Triple, orientation: Quaternio
     arm = matrix(spin) @ (np.asarray(held.position) + middle(held) - np.asarray(hand.position))
     goal = np.asarray(point) + (0.0, 0.0, _depth_below(there)) - arm
     first = np.asarray(hand.position) - np.asarray(hand.offset)
-    return _triple(goal - first)
+    return triple(goal - first)
 
 
 def move_held(hand: Thing, held: Thing, sense: Sense, offset: Triple, turn: Triple) -> Behaviour:
@@ -147,7 +147,7 @@ def move_held(hand: Thing, held: Thing, sense: Sense, offset: Triple, turn: Trip
     if here.arm is not None:
         return (yield from go(hand, sense, offset, turn, {held.name}, held.name))
     way, spin = np.subtract(offset, here.offset), np.subtract(turn, here.turn)
-    duration = 1.875 * max(float(np.linalg.norm(way)), float(np.abs(spin).max())) / STRAIGHT_SPEED
+    duration = PEAK_SPEED * max(float(np.linalg.norm(way)), float(np.abs(spin).max())) / STRAIGHT_SPEED
     shares = np.array([share for share, _ in least_jerk(duration)])[:, None]
     offsets, turns = np.asarray(here.offset) + shares * way, np.asarray(here.turn) + shares * spin
     return (yield from follow(hand, sense, offsets, turns))
@@ -169,7 +169,3 @@ def _yaw(orientation: Quaternion) -> float:
 
 def _wrapped(angle: float) -> float:
     return (angle + math.pi) % (2 * math.pi) - math.pi
-
-
-def _triple(values: FloatArray) -> Triple:
-    return (float(values[0]), float(values[1]), float(values[2]))

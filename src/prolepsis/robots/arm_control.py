@@ -15,7 +15,7 @@ from prolepsis.robots.model import robot_model
 from prolepsis.robots.robot import Robot
 from prolepsis.robots.turned import turn_of, turned
 from prolepsis.state import State, compose_pose, relative_pose
-from prolepsis.things import FloatArray, Quaternion, Thing, Triple
+from prolepsis.things import FloatArray, Quaternion, Thing, Triple, quaternion, triple
 
 PERIOD = 4
 """Ticks between two solutions of the inverse kinematics; in between the joints go on evenly."""
@@ -55,7 +55,6 @@ class ArmHand:
         self._reference = reference
         self._rates: FloatArray = np.zeros(len(self._arm.joints))
         self._stiff = np.array([joint.stiffness for joint in self._arm.joints])
-        self._lags = np.array([joint.damping for joint in self._arm.joints]) / self._stiff
         self._target: HandTarget | None = None
         self._idle = 0
         self._lag = 0.0
@@ -67,9 +66,9 @@ class ArmHand:
         self._mount = int(state.model.body(mount).id)
         self._data = state.data
         first = self._commanded()
-        self._first = _triple(first[:3])
+        self._first = triple(first[:3])
         self._offset: Triple = (0.0, 0.0, 0.0)
-        self._turn: Triple = turn_of(reference, _quaternion(first[3:]))
+        self._turn: Triple = turn_of(reference, quaternion(first[3:]))
         self.ways = ArmWays(self._kinematics, self._arm, gap, self._first, reference, mount, palm)
         self._stiffness = float(1.0 / np.linalg.eigvalsh(self._compliance())[-1])
         self.bind(state)
@@ -172,7 +171,7 @@ class ArmHand:
     def sense(self) -> HandSense:
         """Return what the hand knows of itself."""
         return HandSense(
-            position=_triple(self._data.site_xpos[self._tool]),
+            position=triple(self._data.site_xpos[self._tool]),
             orientation=turned(self._reference, self._turn),
             offset=self._offset,
             turn=self._turn,
@@ -191,7 +190,7 @@ class ArmHand:
     def _velocity(self) -> Triple:
         result = np.zeros(6)
         mujoco.mj_objectVelocity(self._model, self._data, mujoco.mjtObj.mjOBJ_SITE, self._tool, result, 0)
-        return _triple(result[3:])
+        return triple(result[3:])
 
     def _load(self) -> Triple:
         # A force at the hand displaces it by the servos' compliance; what it is displaced by tells the force.
@@ -199,12 +198,4 @@ class ArmHand:
         turn: FloatArray = np.asarray(self._data.xmat[self._mount], dtype=np.float64).reshape(3, 3)
         local: FloatArray = np.asarray(np.linalg.solve(self._compliance(), turn.T @ displaced), dtype=np.float64)
         force: FloatArray = turn @ local
-        return _triple(force)
-
-
-def _triple(values: FloatArray) -> Triple:
-    return float(values[0]), float(values[1]), float(values[2])
-
-
-def _quaternion(values: FloatArray) -> Quaternion:
-    return float(values[0]), float(values[1]), float(values[2]), float(values[3])
+        return triple(force)

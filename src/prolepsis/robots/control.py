@@ -11,7 +11,7 @@ from prolepsis.robots.arm_control import ArmHand
 from prolepsis.robots.flying_control import FlyingHand
 from prolepsis.robots.hand import HAND
 from prolepsis.robots.trunk_control import Trunk
-from prolepsis.scene.robot_world import robot_of_gripper
+from prolepsis.scene.robot_world import reference_of, robot_of_gripper
 from prolepsis.state import State
 
 S = TypeVar("S")
@@ -61,8 +61,7 @@ class Controls:
             if robot is None:
                 hands[thing.name] = FlyingHand(state, thing, HAND)
             else:
-                reference = scene.thing(robot).orientation
-                hands[thing.name] = ArmHand(state, thing, scene.robots[robot], robot, reference)
+                hands[thing.name] = ArmHand(state, thing, scene.robots[robot], robot, reference_of(scene, thing))
         trunks = {name: Trunk(state, name, robot) for name, robot in scene.robots.items()}
         return cls(hands=hands, trunks=trunks)
 

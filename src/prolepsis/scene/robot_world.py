@@ -11,7 +11,7 @@ from prolepsis.robots.model import robot_model
 from prolepsis.robots.robot import Arm, Joint, Robot
 from prolepsis.scene.scene import Scene
 from prolepsis.shapes.from_model import touches
-from prolepsis.things import Thing
+from prolepsis.things import Quaternion, Thing
 
 
 def add_robot(spec: Any, robot: Robot, thing: Thing) -> None:
@@ -49,6 +49,12 @@ def robot_of_gripper(scene: Scene, gripper: Thing) -> str | None:
     links = scene.parts(gripper.name)
     owner = links[0].name.split("/", 1)[0] if links else gripper.name
     return owner if owner in scene.robots else None
+
+
+def reference_of(scene: Scene, gripper: Thing) -> Quaternion:
+    """Return the orientation from which a gripper's turns count: its robot's at the start, or its own if it flies."""
+    robot = robot_of_gripper(scene, gripper)
+    return gripper.orientation if robot is None else scene.thing(robot).orientation
 
 
 def _add_servo(spec: Any, name: str, joint: Joint) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 from prolepsis.errors import KnowledgeError, ScenarioError, UnknownNameError
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
@@ -14,7 +13,7 @@ from prolepsis.robots.pr2 import PR2
 from prolepsis.robots.robot import Robot
 from prolepsis.robots.turned import product
 from prolepsis.shapes.from_model import shape_of
-from prolepsis.things import Quaternion, Thing, Triple
+from prolepsis.things import Quaternion, Thing, Triple, quaternion, triple
 
 KNOWN = {PR2.kind: PR2}
 """Robots that are here, by class."""
@@ -64,8 +63,8 @@ def robot_things(
     made: dict[str | None, list[Thing]] = {None: [robot_thing]}
     for arm in robot.arms:
         palm = read.model.body(arm.gripper.palm).id
-        turn, place = _quaternion(data.xquat[palm]), _triple(data.xpos[palm])
-        place = _sum(place, _triple(rotate(turn, arm.gripper.tool)))
+        turn, place = quaternion(data.xquat[palm]), triple(data.xpos[palm])
+        place = _sum(place, triple(rotate(turn, arm.gripper.tool)))
         position, orientation = _placed(whole, place, product(turn, arm.gripper.tool_orientation))
         found = gripper_thing(arm.name)
         limits = {
@@ -88,7 +87,7 @@ def robot_things(
         name = read.model.body(body).name
         owner = made[read.owner[name]]
         quantities = {k: v for k, v in owner[0].quantities.items() if k in ("friction", "frictionWhenWet")}
-        position, orientation = _placed(whole, _triple(data.xpos[body]), _quaternion(data.xquat[body]))
+        position, orientation = _placed(whole, triple(data.xpos[body]), quaternion(data.xquat[body]))
         owner.append(
             Thing(
                 name=f"{whole.name}/{name}",
@@ -116,16 +115,8 @@ def _opening(kb: KnowledgeBase, name: str, greatest: float) -> float:
 
 def _placed(whole: Thing, position: Triple, orientation: Quaternion) -> tuple[Triple, Quaternion]:
     """Return a pose seen from the robot's root as a pose in the world."""
-    return _sum(whole.position, _triple(rotate(whole.orientation, position))), product(whole.orientation, orientation)
+    return _sum(whole.position, triple(rotate(whole.orientation, position))), product(whole.orientation, orientation)
 
 
 def _sum(first: Triple, second: Triple) -> Triple:
     return (first[0] + second[0], first[1] + second[1], first[2] + second[2])
-
-
-def _triple(values: Any) -> Triple:
-    return float(values[0]), float(values[1]), float(values[2])
-
-
-def _quaternion(values: Any) -> Quaternion:
-    return float(values[0]), float(values[1]), float(values[2]), float(values[3])

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from prolepsis.engine import mujoco
-from prolepsis.things import FloatArray, Geom, Quaternion, Shape, Triple
+from prolepsis.things import FloatArray, Geom, Shape, quaternion, triple
 
 _GEOM_NAMES = {
     int(mujoco.mjtGeom.mjGEOM_PLANE): "plane",
@@ -46,10 +46,10 @@ def _geom(model: Any, geom: int) -> Geom:
     vertices = _hull_vertices(model, int(model.geom_dataid[geom])) if kind == "mesh" else np.zeros((0, 3))
     return Geom(
         type=kind,
-        size=_triple(model.geom_size[geom]),
-        position=_triple(model.geom_pos[geom]),
-        orientation=_quaternion(model.geom_quat[geom]),
-        vertices=tuple(_triple(vertex) for vertex in vertices),
+        size=triple(model.geom_size[geom]),
+        position=triple(model.geom_pos[geom]),
+        orientation=quaternion(model.geom_quat[geom]),
+        vertices=tuple(triple(vertex) for vertex in vertices),
     )
 
 
@@ -63,11 +63,3 @@ def _hull_vertices(model: Any, mesh: int) -> FloatArray:
     hull_count = int(model.mesh_graph[graph])
     chosen = model.mesh_graph[graph + 2 + hull_count : graph + 2 + 2 * hull_count]
     return vertices[np.asarray(chosen, dtype=np.int64)]
-
-
-def _triple(values: Any) -> Triple:
-    return float(values[0]), float(values[1]), float(values[2])
-
-
-def _quaternion(values: Any) -> Quaternion:
-    return float(values[0]), float(values[1]), float(values[2]), float(values[3])

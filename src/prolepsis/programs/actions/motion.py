@@ -23,9 +23,9 @@ from prolepsis.programs.grasping import (
 from prolepsis.programs.profile import PEAK_ACCELERATION, PEAK_SPEED, least_jerk
 from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.scene.extent import extent_along
-from prolepsis.scene.robot_world import robot_of_gripper
+from prolepsis.scene.robot_world import reference_of, robot_of_gripper
 from prolepsis.scene.scene import Scene
-from prolepsis.things import FloatArray, Quaternion, Thing, Triple
+from prolepsis.things import FloatArray, Quaternion, Thing, Triple, triple
 
 ARRIVED = 1.0e-4
 """Shorter ways are not worth a move [m]."""
@@ -68,6 +68,15 @@ def travel(hand: Thing, sense: Sense, displacement: Triple, acceleration: float,
     return sense
 
 
+def travel_over(hand: Thing, sense: Sense, way: FloatArray, acceleration: float, speed: float) -> Behaviour:
+    """Move a hand by ``way`` [m], shape (3,): up as far as needed, across, and down."""
+    up, down = max(float(way[2]), 0.0), min(float(way[2]), 0.0)
+    for step in ((0.0, 0.0, up), (float(way[0]), float(way[1]), 0.0), (0.0, 0.0, down)):
+        if any(step):
+            sense = yield from travel(hand, sense, step, acceleration, speed)
+    return sense
+
+
 def stay(duration: float, sense: Sense) -> Behaviour:
     """Let ``duration`` [s] pass without a command."""
     for _ in range(max(round(duration / TICK), 1)):
@@ -106,9 +115,8 @@ def within_workspace(scene: Scene, *, hand: Thing, object: Thing, **_: object) -
 @action(HAND, OBJECT, SPEED, HEIGHT, check=within_workspace)
 def reach(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, speed: float, height: float) -> Behaviour:
     """Open the gripper wider than the object, if it is not, and move it round the object, or a height above."""
-    robot = robot_of_gripper(scene, hand)
-    if robot is not None:
-        return (yield from _reach_by_arm(hand, object, sense, speed, height, scene.thing(robot).orientation))
+    if sense.hands[hand.name].arm is not None:
+        return (yield from _reach_by_arm(hand, object, sense, speed, height, reference_of(scene, hand)))
     grip = grip_as_turned(hand, object, sense, height)
     width = min(grip.width + MARGIN, ROBOT.max_opening)
     if sense.hands[hand.name].opening < width:
@@ -145,7 +153,7 @@ def _reach_by_arm(
             if sense.hands[hand.name].opening < width:
                 sense = yield from open_to(hand, width, sense)
             sense = yield from go(hand, sense, grip.before(back), grip.turn, ())
-            step = _triple(np.subtract(grip.offset, grip.before(back)))
+            step = triple(np.subtract(grip.offset, grip.before(back)))
             return (yield from travel(hand, sense, step, 2.0, speed))
     if first is None:
         raise ActionFailedError("not_graspable", f"{object.name} is too wide for {hand.name} as it lies")
@@ -185,7 +193,3 @@ def wait(scene: Scene, sense: Sense, *, duration: float) -> Behaviour:
     """Let time pass."""
     del scene
     return (yield from stay(duration, sense))
-
-
-def _triple(values: FloatArray) -> Triple:
-    return (float(values[0]), float(values[1]), float(values[2]))

@@ -9,8 +9,7 @@ import numpy as np
 
 from prolepsis.errors import PlanError
 from prolepsis.programs.action import HAND, Parameter, action
-from prolepsis.programs.actions.motion import stay, travel
-from prolepsis.programs.actions.striking import reference_of
+from prolepsis.programs.actions.motion import stay, travel_over
 from prolepsis.programs.actions.turning import RATE
 from prolepsis.programs.commands import Behaviour, Sense
 from prolepsis.programs.following import follow
@@ -20,7 +19,7 @@ from prolepsis.programs.turning import course, matrix, rolled
 from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.robots.hand import rotate
 from prolepsis.robots.turned import inverse, product, turn_of, turned
-from prolepsis.scene.robot_world import robot_of_gripper
+from prolepsis.scene.robot_world import reference_of, robot_of_gripper
 from prolepsis.scene.scene import Scene
 from prolepsis.things import FloatArray, Quaternion, Thing
 
@@ -103,7 +102,7 @@ def pour(
     goal = np.array([middle[0], middle[1], top[:, 2].max()]) + side * offset * left
     tilted = np.array([level @ rolled(-side * a) @ lip for a in angles])
     way = goal - tilted + lifts[:, None] * (0.0, 0.0, 1.0) - here
-    sense = yield from _approach(hand, sense, way[0])
+    sense = yield from travel_over(hand, sense, way[0], APPROACH_ACCELERATION, APPROACH_SPEED)
     # The way is seen from where the hand is, the commands from where they were: the servo may lag by a little.
     grip = product(inverse(ahead), state.orientation)
     turns = [turn_of(reference, product(turned(ahead, (0.0, 0.0, -side * float(a) - lean)), grip)) for a in angles]
@@ -115,15 +114,6 @@ def _lean(orientation: Quaternion, level: FloatArray) -> float:
     """Return by how much a vessel has turned already about the forward axis of a level frame [rad]."""
     up = level.T @ matrix(orientation)[:, 2]
     return math.atan2(-float(up[1]), float(up[2]))
-
-
-def _approach(hand: Thing, sense: Sense, way: FloatArray) -> Behaviour:
-    """Move up as far as needed, across, and down."""
-    up, down = max(float(way[2]), 0.0), min(float(way[2]), 0.0)
-    for step in ((0.0, 0.0, up), (float(way[0]), float(way[1]), 0.0), (0.0, 0.0, down)):
-        if any(step):
-            sense = yield from travel(hand, sense, step, APPROACH_ACCELERATION, APPROACH_SPEED)
-    return sense
 
 
 def _points(sense: Sense, things: Sequence[Thing]) -> FloatArray:

@@ -25,16 +25,16 @@ from prolepsis.programs.commands import (
     OpenGripper,
     Sense,
 )
-from prolepsis.programs.profile import least_jerk, least_time
+from prolepsis.programs.profile import PEAK_SPEED, least_jerk, least_time
 from prolepsis.programs.recording import Recording, read_recording
 from prolepsis.programs.turning import TICK
 from prolepsis.robots.hand import HAND as FREE_HAND
 from prolepsis.robots.model import robot_model
 from prolepsis.robots.robot import Joint
 from prolepsis.robots.turned import turn_of
-from prolepsis.scene.robot_world import robot_of_gripper
+from prolepsis.scene.robot_world import reference_of, robot_of_gripper
 from prolepsis.scene.scene import Scene
-from prolepsis.things import FloatArray, Quaternion, Thing, Triple
+from prolepsis.things import FloatArray, Quaternion, Thing, triple
 
 START_SPEED = 0.25
 """With which the hand goes to where the recording starts [m/s, rad/s]."""
@@ -118,8 +118,7 @@ def replay(scene: Scene, sense: Sense, *, hand: Thing, file: Path) -> Behaviour:
     if recording.joints:
         return (yield from _replay_joints(hand, sense, recording, ticks))
     here = sense.hands[hand.name]
-    robot = robot_of_gripper(scene, hand)
-    reference = scene.thing(robot).orientation if robot is not None else hand.orientation
+    reference = reference_of(scene, hand)
     rows = recording.ways
     offsets = np.asarray(here.offset) + rows if rows is not None else _places(recording) - np.asarray(hand.position)
     turns = _turns(recording, reference, here, ticks)
@@ -131,14 +130,14 @@ def replay(scene: Scene, sense: Sense, *, hand: Thing, file: Path) -> Behaviour:
     for k, (place, rate) in enumerate(zip(course, rates, strict=True)):
         target = HandTarget(
             hand=hand.name,
-            offset=_triple(place[:3]),
-            velocity=_triple(rate[:3]),
-            turn=_triple(place[3:]),
-            spin=_triple(rate[3:]),
+            offset=triple(place[:3]),
+            velocity=triple(rate[:3]),
+            turn=triple(place[3:]),
+            spin=triple(rate[3:]),
         )
         sense = yield (target, *grips.get(k, ()))
         behind = max(behind, _refuse_behind(hand, sense, (k - len(course) + len(ticks)) * TICK))
-    end = HandTarget(hand=hand.name, offset=_triple(course[-1, :3]), turn=_triple(course[-1, 3:]))
+    end = HandTarget(hand=hand.name, offset=triple(course[-1, :3]), turn=triple(course[-1, 3:]))
     return (yield (end, *([Note(evidence={"behind": behind})] if here.arm is not None else ())))
 
 
@@ -193,7 +192,7 @@ def _start(start: FloatArray, first: FloatArray) -> FloatArray:
     longest = max(float(np.linalg.norm(way[:3])), float(np.abs(way[3:]).max()))
     if longest < ARRIVED:
         return np.zeros((0, 6))
-    return np.array([start + share * way for share, _ in least_jerk(1.875 * longest / START_SPEED)])
+    return np.array([start + share * way for share, _ in least_jerk(PEAK_SPEED * longest / START_SPEED)])
 
 
 def _grips(recording: Recording, hand: Thing, start: int) -> dict[int, tuple[Command, ...]]:
@@ -241,7 +240,3 @@ def _refuse_behind(hand: Thing, sense: Sense, time: float) -> float:
             "unreachable", f"{hand.name}: {here.lag * 1000:.0f} mm away from the recording at {max(time, 0.0):.2f} s"
         )
     return here.lag
-
-
-def _triple(values: FloatArray) -> Triple:
-    return (float(values[0]), float(values[1]), float(values[2]))

@@ -8,16 +8,16 @@ import numpy as np
 
 from prolepsis.errors import PlanError
 from prolepsis.programs.action import HAND, OBJECT, Parameter, action
-from prolepsis.programs.actions.motion import stay, travel
+from prolepsis.programs.actions.motion import stay, travel, travel_over
 from prolepsis.programs.commands import ActionFailedError, Behaviour, HandTarget, Note, Sense
 from prolepsis.programs.following import follow
 from prolepsis.programs.grasping import as_seen
 from prolepsis.programs.holding import free_place, move_held, spots
 from prolepsis.programs.turning import TICK
 from prolepsis.scene.extent import middle, support
-from prolepsis.scene.robot_world import robot_of_gripper
+from prolepsis.scene.robot_world import reference_of
 from prolepsis.scene.scene import Scene
-from prolepsis.things import FloatArray, Quaternion, Thing, Triple
+from prolepsis.things import FloatArray, Thing, Triple
 
 LEAST_WINDUP = 0.03
 """The hand comes from at least this high above what it hits [m]."""
@@ -47,12 +47,6 @@ def _has_part(scene: Scene, *, object: Thing, against: Thing, part: str, **_: ob
     if object.name == against.name:
         raise PlanError(f"plan: {object.name} cannot be hit against itself")
     spots(against, part)
-
-
-def reference_of(scene: Scene, hand: Thing) -> Quaternion:
-    """Return the orientation from which a hand's turns count: a robot's own, or the hand's at the start."""
-    robot = robot_of_gripper(scene, hand)
-    return hand.orientation if robot is None else scene.thing(robot).orientation
 
 
 @action(HAND, OBJECT, AGAINST, Parameter(name="speed", kind="speed", default=0.25), PART, check=_has_part)
@@ -137,11 +131,7 @@ def bring(scene: Scene, sense: Sense, *, hand: Thing, target: Thing, height: flo
     x, y, _ = np.asarray(seen.position) + middle(seen)
     top = seen.position[2] + support(seen, np.array([0.0, 0.0, 1.0]))
     way = np.subtract((x, y, top + height), here.position)
-    up, down = max(float(way[2]), 0.0), min(float(way[2]), 0.0)
-    for step in ((0.0, 0.0, up), (float(way[0]), float(way[1]), 0.0), (0.0, 0.0, down)):
-        if any(step):
-            sense = yield from travel(hand, sense, step, BRING_ACCELERATION, BRING_SPEED)
-    return sense
+    return (yield from travel_over(hand, sense, way, BRING_ACCELERATION, BRING_SPEED))
 
 
 def push_down(hand: Thing, sense: Sense, force: float, duration: float) -> Behaviour:

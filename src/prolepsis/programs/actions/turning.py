@@ -7,8 +7,9 @@ import math
 import numpy as np
 
 from prolepsis.programs.action import HAND, Parameter, action
-from prolepsis.programs.commands import Behaviour, HandTarget, Sense
-from prolepsis.programs.turning import TICK, course
+from prolepsis.programs.commands import Behaviour, Sense
+from prolepsis.programs.following import follow
+from prolepsis.programs.turning import course
 from prolepsis.scene.scene import Scene
 from prolepsis.things import Thing
 
@@ -23,8 +24,5 @@ def tilt(scene: Scene, sense: Sense, *, hand: Thing, angle: float, rate: float) 
     state = sense.hands[hand.name]
     yaw, pitch, start = state.turn
     angles = course(start, angle, rate)
-    for now, spin in zip(angles, np.diff(angles, prepend=start) / TICK, strict=True):
-        turn = (yaw, pitch, float(now))
-        spins = (0.0, 0.0, float(spin))
-        sense = yield (HandTarget(hand=hand.name, offset=state.offset, turn=turn, spin=spins),)
-    return sense
+    turns = np.stack([np.full(len(angles), yaw), np.full(len(angles), pitch), angles], axis=1)
+    return (yield from follow(hand, sense, np.tile(state.offset, (len(angles), 1)), turns))
