@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 from tests.scenes import run, scene
 
+from prolepsis.fluents import recognize
 from prolepsis.log import Log
 from prolepsis.robots.inverse import ArmKinematics, Found
+from prolepsis.robots.model_file import OTHERS, OWN
 from prolepsis.robots.pr2 import PR2
+from prolepsis.scene import compile_world
 
 BLOCK = (
     ":floor a :Floor . :table1 a :Table . :block1 a :Block ; :on :table1 ; :length 0.05 ; :width 0.05 ; :height 0.07 "
@@ -18,6 +21,7 @@ ROBOT = (
     ":rightGripper a :Gripper . :leftGripper a :Gripper ."
 )
 NEAR = BLOCK + "; :x -0.2 ; :y -0.15" + ROBOT
+BETWEEN = BLOCK + "; :x -0.3" + ROBOT
 FAR = BLOCK + "; :x 0.35 ; :y -0.1" + ROBOT
 
 
@@ -94,3 +98,39 @@ def test_links_belong_to_the_robot_and_hands_to_themselves() -> None:
     assert {t.name for t in known.things if "Gripper" in t.roles} == {"rightGripper", "leftGripper"}
     assert known.thing("pr2/r_gripper_palm_link").whole == "rightGripper"
     assert known.thing("pr2/r_forearm_link").whole == "pr2"
+
+
+def test_an_arm_does_not_go_where_the_other_one_is() -> None:
+    log = run(BETWEEN, "sequence([reach(rightGripper, block1), reach(leftGripper, block1)])")
+    right, left = log.actions
+    assert (right.outcome, left.outcome) == ("done", "in_collision")
+    assert left.evidence["reason"] == "block1 by leftGripper: rightGripper"
+
+
+def test_two_hands_that_meet_keep_apart() -> None:
+    ways = "carry(rightGripper, [0, 0.25, 0], 1, 0.3), carry(leftGripper, [0, -0.25, 0], 1, 0.3)"
+    log = run(BETWEEN, f"sequence([together([{ways}]), wait(0.1)])")
+    right, left = (log.poses[:, log.index(f"pr2/{side}_gripper_palm_link"), 1] for side in "rl")
+    # Without contact the hands would have passed each other: they were sent 20 cm past where they meet.
+    assert left[-1] - right[-1] > 0.05
+    touched = {fact.args for fact in recognize(log).select(type="contacts")}
+    assert ("leftGripper", "rightGripper") in touched
+    assert all(first != second for first, second in touched)
+
+
+def test_hands_that_do_not_meet_do_not_touch() -> None:
+    log = run(BETWEEN, "together([lift(rightGripper, 0.1), lift(leftGripper, 0.1)])")
+    assert not [args for args in (f.args for f in recognize(log).select(type="contacts")) if "leftGripper" in args]
+
+
+def test_an_arm_can_touch_the_other_one_but_neither_itself_nor_the_trunk() -> None:
+    known = compile_world(scene(NEAR)).model
+    side = {g: known.body(int(known.geom_bodyid[g])).name.removeprefix("pr2/")[:2] for g in range(known.ngeom)}
+    types, affinities = known.geom_contype, known.geom_conaffinity
+    robot = [g for g in side if types[g] & OWN]
+    assert {"r_", "l_", "ba", "to", "he"} <= {side[g] for g in robot}
+    for a in robot:
+        for b in robot:
+            meet = bool(types[a] & affinities[b] or types[b] & affinities[a])
+            assert meet == ({side[a], side[b]} == {"r_", "l_"})
+        assert types[a] & OTHERS or affinities[a] & OTHERS

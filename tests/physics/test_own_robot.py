@@ -8,12 +8,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from prolepsis.engine import mujoco
 from prolepsis.own_robot import OwnGripper, OwnRobot
 from prolepsis.projection import Projection, project
 from prolepsis.robots.loading import load_robot
 from prolepsis.robots.model import robot_model
 from prolepsis.robots.model_file import read_model_file
 from prolepsis.robots.pr2 import PR2
+from prolepsis.scene.robot_world import add_robot
+from prolepsis.things import Thing
 
 HERE = Path(__file__).parent
 EXAMPLES = HERE.parents[1] / "examples"
@@ -142,3 +145,43 @@ def test_objects_are_held_at_the_middle_of_the_pads() -> None:
         place = palm.xmat.reshape(3, 3).T @ (data.geom_xpos[pad] - palm.xpos)
         assert read.gaps["rightGripper"].shift(width) == pytest.approx(float(place[0]) - 0.18, abs=1e-3)
         assert np.isfinite(place).all()
+
+
+def arm_at(y: float, number: int) -> str:
+    """Return an arm that is mounted at ``y`` [m] on the trunk, in MJCF."""
+    box = '<geom type="box" size=".02 .01 .01"/>'
+    fingers = "".join(
+        f'<body name="{side}{number}" pos=".06 {sign}.02 0"><joint name="{side}{number}" type="slide" '
+        f'axis="0 {sign}1 0" range="0 .04"/>{box}</body>'
+        for side, sign in (("left", ""), ("right", "-"))
+    )
+    return (
+        f'<body name="link{number}" pos="0 {y} 0.5"><joint name="turn{number}" axis="0 0 1" range="-2 2"/>'
+        f'<geom type="box" size=".1 .1 .1"/><body name="palm{number}" pos=".2 0 0">'
+        f'<joint name="bend{number}" axis="0 1 0" range="-2 2"/><geom type="box" size=".02 .05 .02"/>'
+        f"{fingers}</body></body>"
+    )
+
+
+def test_each_of_three_arms_touches_the_others_but_not_where_they_begin(tmp_path: Path) -> None:
+    arms = "".join(arm_at(0.15 * k, k) for k in range(3))
+    trunk = f'<body name="trunk"><geom type="box" size=".1 .6 .6"/>{arms}</body>'
+    (tmp_path / "three.xml").write_text(f"<mujoco><worldbody>{trunk}</worldbody></mujoco>", encoding="utf-8")
+    grippers = {
+        f"gripper{k}": OwnGripper(
+            palm=f"palm{k}", fingers=(f"left{k}", f"right{k}"), tool=(0.06, 0.0, 0.0), max_force=20.0
+        )
+        for k in range(3)
+    }
+    robot = load_robot(OwnRobot(file="three.xml", grippers=grippers), tmp_path)
+    spec = mujoco.MjSpec()
+    add_robot(spec, robot, Thing(name="robot1", kind="Robot"), list(grippers))
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    # All links are beside each other and inside the trunk; then two palms are put into each other.
+    mujoco.mj_forward(model, data)
+    assert not data.ncon
+    data.joint("robot1/turn0").qpos[0], data.joint("robot1/turn1").qpos[0] = 0.4, -0.4
+    mujoco.mj_forward(model, data)
+    touched = {frozenset(model.body(int(model.geom_bodyid[g])).name[-1] for g in pair) for pair in data.contact.geom}
+    assert touched == {frozenset("01")}

@@ -8,7 +8,7 @@ import numpy as np
 
 from prolepsis.engine import mujoco
 from prolepsis.programs.commands import ArmTarget, Command, HandSense, HandTarget
-from prolepsis.robots.arm_way import ArmWays
+from prolepsis.robots.arm_way import ArmWays, name_of
 from prolepsis.robots.gripper_control import Drive, GripperControl
 from prolepsis.robots.inverse import ArmKinematics
 from prolepsis.robots.model import robot_model
@@ -64,7 +64,7 @@ class ArmHand:
         self._names = (mount, palm)
         self._joints: FloatArray = self._kinematics.home.copy()
         self._mount = int(state.model.body(mount).id)
-        self._data = state.data
+        self._state, self._data = state, state.data
         first = self._commanded()
         self._first = triple(first[:3])
         self._offset: Triple = (0.0, 0.0, 0.0)
@@ -166,7 +166,7 @@ class ArmHand:
         for _, first, second, force in forces:
             if force > BUMP and (first in links or second in links):
                 other = second if first in links else first
-                self._bump = str(self._model.body(other).name) or "the ground"
+                self._bump = name_of(self._state, other) or "the ground"
 
     def sense(self) -> HandSense:
         """Return what the hand knows of itself."""

@@ -183,7 +183,6 @@ class ArmWays:
             mujoco.mj_kinematics(model, data)
         mujoco.mj_comPos(model, data)
         mujoco.mj_collision(model, data)
-        things = self._state.world.scene.things
         for k in range(data.ncon):
             if data.contact.dist[k] > 0.0:
                 continue
@@ -191,8 +190,7 @@ class ArmWays:
             if (bodies[0] in own_bodies) == (bodies[1] in own_bodies):
                 continue
             own, other = bodies if bodies[0] in own_bodies else reversed(bodies)
-            number = int(self._state.body_thing[other])
-            name = things[number].name if number >= 0 else model.body(other).name
+            name = name_of(self._state, other)
             if own not in self._fingers or name.split("/", 1)[0] not in ignoring:
                 return name
         return ""
@@ -207,6 +205,15 @@ class ArmWays:
         yaw, pitch, roll = (float(a) for a in turn)
         place = [f + float(o) for f, o in zip(self._first, offset, strict=True)]
         return relative_pose(self._mount_pose(), np.array([*place, *turned(self._reference, (yaw, pitch, roll))]))
+
+
+def name_of(state: State, body: int) -> str:
+    """Return what a plan would call a body: of a robot's links, the gripper or the robot that they are parts of."""
+    number = int(state.body_thing[body])
+    if number < 0:
+        return str(state.model.body(body).name)
+    thing = state.world.scene.things[number]
+    return thing.whole if thing.kind == "Part" and thing.whole is not None else thing.name
 
 
 def _starts(kinematics: ArmKinematics) -> list[FloatArray]:

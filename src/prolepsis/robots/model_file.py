@@ -17,7 +17,8 @@ from prolepsis.errors import ScenarioError
 ROOT = "mount"
 """Body that is added if none carries all others."""
 OWN, OTHERS = 2, 1
-"""Contact bits of a robot: its geoms touch everything but each other. Neighbouring links overlap in many models."""
+"""Contact bits of a robot: its geoms touch everything but each other, since neighbouring links overlap in many models.
+A world lets its arms touch."""
 MESHES = (".msh", ".obj", ".stl")
 """Files that MuJoCo reads."""
 SHOWN_MESHES = 5

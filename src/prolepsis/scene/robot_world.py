@@ -2,20 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from itertools import combinations
 from typing import Any
 
 from prolepsis.engine import mujoco
 from prolepsis.robots.grippers import COUPLING_SOLIMP, COUPLING_SOLREF
 from prolepsis.robots.model import robot_model
+from prolepsis.robots.model_file import OTHERS, OWN
 from prolepsis.robots.robot import Arm, Joint, Robot
 from prolepsis.scene.scene import Scene
 from prolepsis.shapes.from_model import touches
 from prolepsis.things import Quaternion, Thing
 
+FIRST_ARM, MOST_ARMS = 4, 29
+"""Contact bit of the first arm, and how many arms have one of their own: MuJoCo has 31 bits."""
 
-def add_robot(spec: Any, robot: Robot, thing: Thing) -> None:
-    """Attach a robot to a world at the place of ``thing``, with servos for its joints and motors for its grippers."""
+
+def add_robot(spec: Any, robot: Robot, thing: Thing, arms: Sequence[str]) -> None:
+    """Attach a robot to a world at the place of ``thing``, with servos for its joints and motors for its grippers.
+
+    Args:
+        spec: The ``mujoco.MjSpec`` of the world.
+        robot: What it is.
+        thing: The robot in the scene.
+        arms: Names of all arms in the world: each touches the others, but neither itself nor its trunk.
+    """
     read = robot_model(robot)
     child = read.spec()
     for part in (*child.actuators, *child.keys, *child.sensors):
@@ -27,6 +39,7 @@ def add_robot(spec: Any, robot: Robot, thing: Thing) -> None:
     for arm in robot.arms:
         _add_gripper(spec, thing.name, arm)
     _name_geoms(spec, read.model, thing.name)
+    _let_arms_touch(spec, robot, thing.name, arms)
 
 
 def rule_contacts(spec: Any, scene: Scene, robot: str, rule: Callable[[Any, Thing], None]) -> None:
@@ -55,6 +68,31 @@ def reference_of(scene: Scene, gripper: Thing) -> Quaternion:
     """Return the orientation from which a gripper's turns count: its robot's at the start, or its own if it flies."""
     robot = robot_of_gripper(scene, gripper)
     return gripper.orientation if robot is None else scene.thing(robot).orientation
+
+
+def _let_arms_touch(spec: Any, robot: Robot, name: str, arms: Sequence[str]) -> None:
+    """Give the geoms of each arm, from its first link to the pads, contact bits that the other arms meet."""
+    bits = {arm: FIRST_ARM << (number % MOST_ARMS) for number, arm in enumerate(arms)}
+    every = sum({*bits.values()})
+    firsts: dict[str, str] = {}
+    for body, arm in _arms_of_bodies(robot).items():
+        firsts.setdefault(arm, f"{name}/{body}")
+        for geom in spec.body(f"{name}/{body}").geoms:
+            if geom.contype or geom.conaffinity:
+                geom.contype, geom.conaffinity = OWN | bits[arm], OTHERS | (every & ~bits[arm])
+    # Where arms begin side by side, their models may overlap.
+    for a, b in combinations(firsts.values(), 2):
+        spec.add_exclude(bodyname1=a, bodyname2=b)
+
+
+def _arms_of_bodies(robot: Robot) -> dict[str, str]:
+    """Return the arm that moves a body, by body, from the trunk outwards; what two of them move is the trunk's."""
+    model = robot_model(robot).model
+    tops = [(int(model.jnt_bodyid[model.joint(arm.joints[0].name).id]), arm.name) for arm in robot.arms]
+    moved_by: list[list[str]] = [[]]
+    for body in range(1, model.nbody):
+        moved_by.append(moved_by[int(model.body_parentid[body])] + [arm for top, arm in tops if top == body])
+    return {model.body(b).name: names[0] for b, names in enumerate(moved_by) if len(names) == 1}
 
 
 def _add_servo(spec: Any, name: str, joint: Joint) -> None:

@@ -95,8 +95,9 @@ def compile_world(scene: Scene) -> World:
     spec.worldbody.add_light(pos=[0, 0, 3], castshadow=True)
     ranks = _friction_ranks(scene)
     start: dict[str, float] = {}
+    arms = [arm.name for robot in scene.robots.values() for arm in robot.arms]
     for name, robot in scene.robots.items():
-        add_robot(spec, robot, scene.thing(name))
+        add_robot(spec, robot, scene.thing(name), arms)
         rule_contacts(spec, scene, name, lambda geom, thing: _rule_contact(geom, thing, ranks, rolls=False))
         start |= posture(robot, name, scene)
     for thing in scene.things:
