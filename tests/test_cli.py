@@ -105,13 +105,14 @@ def test_timeline_prints_a_table(saved: Path, capfd: pytest.CaptureFixture[str])
     assert any("breaking(egg1)" in line for line in lines)
 
 
-@pytest.mark.parametrize("section", ["objects", "actions", "fluents", "events", "examples"])
+@pytest.mark.parametrize("section", ["objects", "actions", "conditions", "fluents", "events", "examples"])
 def test_list_prints_a_line_each(section: str, capfd: pytest.CaptureFixture[str]) -> None:
     assert main(["list", section]) == 0
     lines = capfd.readouterr().out.splitlines()
     expected = {
         "objects": "EggShell",
         "actions": "grasp(",
+        "conditions": "pressed(Object, Other, Force)  The two are pressed together",
         "fluents": "supports(",
         "events": "breaking(",
         "examples": "dropped_egg.toml",
@@ -126,6 +127,7 @@ def test_list_without_a_section_lists_all(capfd: pytest.CaptureFixture[str]) -> 
     assert [line for line in out.splitlines() if line.endswith(":") and not line.startswith(" ")] == [
         "objects:",
         "actions:",
+        "conditions:",
         "fluents:",
         "events:",
         "examples:",
@@ -137,6 +139,7 @@ def test_list_without_a_section_lists_all(capfd: pytest.CaptureFixture[str]) -> 
     [
         ("EggShell", "breakingForce"),
         ("grasp", "name of a gripper"),
+        ("pressed", "condition\n  The two are pressed together with at least a force."),
         ("supports", "fluent"),
         ("Breaking", "event"),
         ("friction", "property (quantity)"),

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from prolepsis.knowledge import KnowledgeBase
     from prolepsis.knowledge.vocabulary import ClassEntry, Property
     from prolepsis.programs import ActionSpec
+    from prolepsis.programs.action import Parameter
 
 LIST_EXAMPLE = """\
   prolepsis list actions
@@ -35,7 +36,11 @@ def add_to(commands: Any) -> None:
     parser = add_command(commands, "list", "list what there is, a line each", LIST_EXAMPLE, run_list)
     parser.add_argument("what", nargs="?", choices=list(SECTIONS), help="what to list; everything if not given")
     parser = add_command(
-        commands, "describe", "describe a class, property, action, fluent or event", DESCRIBE_EXAMPLE, run_describe
+        commands,
+        "describe",
+        "describe what has a name in `prolepsis list`, or a property",
+        DESCRIBE_EXAMPLE,
+        run_describe,
     )
     parser.add_argument("name", metavar="NAME", help="as `prolepsis list` shows it, or the name of a property")
 
@@ -64,18 +69,20 @@ def describe(name: str) -> str:
         UnknownNameError: If nothing is called so.
     """
     from prolepsis.programs import ACTIONS
+    from prolepsis.programs.conditions import CONDITIONS
 
     knowledge, facts = _knowledge(), _facts()
     vocabulary = knowledge.vocabulary
     fact = facts.get(name[:1].lower() + name[1:])
     found = [_class(vocabulary.classes[name], knowledge)] if name in vocabulary.classes else []
     found += [_action(ACTIONS[name])] if name in ACTIONS else []
+    found += [_condition(name)] if name in CONDITIONS else []
     found += [f"{_usage(fact)}: {fact.kind}\n  {fact.doc}"] if fact is not None else []
     found += [_property(vocabulary.properties[name], knowledge)] if name in vocabulary.properties else []
     found += [_individual(name, knowledge)] if name in knowledge.individuals else []
     if not found:
-        known = {*vocabulary.classes, *ACTIONS, *facts, *vocabulary.properties, *knowledge.individuals}
-        raise UnknownNameError.of("class, property, individual, action, fluent or event", name, known)
+        known = {*vocabulary.classes, *ACTIONS, *CONDITIONS, *facts, *vocabulary.properties, *knowledge.individuals}
+        raise UnknownNameError.of("class, property, individual, action, condition, fluent or event", name, known)
     return "\n\n".join(found)
 
 
@@ -99,6 +106,15 @@ def _actions() -> Rows:
     return ((spec.usage(), _first_line(spec.doc)) for _, spec in sorted(ACTIONS.items()))
 
 
+def _conditions() -> Rows:
+    from prolepsis.programs.conditions import CONDITIONS
+
+    return [
+        *((spec.usage(name), spec.doc) for name, spec in sorted(CONDITIONS.items())),
+        ("not(Condition)", "The condition does not hold."),
+    ]
+
+
 def _fluents() -> Rows:
     return ((_usage(fact), _first_line(fact.doc)) for fact in _facts().values() if fact.kind == "fluent")
 
@@ -116,6 +132,7 @@ def _examples() -> Rows:
 SECTIONS: Mapping[str, Callable[[], Rows]] = {
     "objects": _objects,
     "actions": _actions,
+    "conditions": _conditions,
     "fluents": _fluents,
     "events": _events,
     "examples": _examples,
@@ -139,10 +156,20 @@ def _usage(fact: FactType) -> str:
 
 
 def _action(spec: ActionSpec) -> str:
+    return f"{spec.usage()}: action\n  {spec.doc}\n" + _parameters(spec.parameters)
+
+
+def _condition(name: str) -> str:
+    from prolepsis.programs.conditions import CONDITIONS
+
+    spec = CONDITIONS[name]
+    return f"{spec.usage(name)}: condition\n  {spec.doc}\n" + _parameters(spec.parameters)
+
+
+def _parameters(parameters: Iterable[Parameter]) -> str:
     from prolepsis.programs.action import KINDS
 
-    rows = ((parameter.name, KINDS[parameter.kind]) for parameter in spec.parameters)
-    return f"{spec.usage()}: action\n  {spec.doc}\n" + table(rows, indent="  ")
+    return table(((parameter.name, KINDS[parameter.kind]) for parameter in parameters), indent="  ")
 
 
 def _individual(name: str, knowledge: KnowledgeBase) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -93,16 +93,21 @@ class ActionSpec:
 
     def usage(self) -> str:
         """Return how it is written: ``lift(Hand, Height, Speed = 0.25 m/s)``."""
-        shown: list[str] = []
-        for parameter in self.parameters:
-            name = parameter.name[0].upper() + parameter.name[1:]
-            told = KINDS[parameter.kind]
-            unit = told.strip("[]") if told.startswith("[") else UNITS.get(parameter.kind, "")
-            if isinstance(parameter.default, str):
-                shown.append(f"{name} = {parameter.default}")
-            else:
-                shown.append(name if parameter.default is None else f"{name} = {parameter.default:g} {unit}")
-        return f"{self.name}({', '.join(shown)})"
+        return usage_of(self.name, self.parameters)
+
+
+def usage_of(name: str, parameters: Iterable[Parameter]) -> str:
+    """Return how a term with these parameters is written."""
+    shown: list[str] = []
+    for parameter in parameters:
+        variable = parameter.name[0].upper() + parameter.name[1:]
+        told = KINDS[parameter.kind]
+        unit = told.strip("[]") if told.startswith("[") else UNITS.get(parameter.kind, "")
+        if isinstance(parameter.default, str):
+            shown.append(f"{variable} = {parameter.default}")
+        else:
+            shown.append(variable if parameter.default is None else f"{variable} = {parameter.default:g} {unit}")
+    return f"{name}({', '.join(shown)})"
 
 
 ACTIONS: dict[str, ActionSpec] = {}

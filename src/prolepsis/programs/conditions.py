@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from prolepsis.errors import PlanError, UnknownNameError
-from prolepsis.programs.action import FORCE, HAND, OBJECT, Parameter, bind
+from prolepsis.programs.action import FORCE, HAND, OBJECT, Parameter, bind, usage_of
 from prolepsis.programs.commands import Sense
 from prolepsis.scene.scene import Scene
 from prolepsis.terms import Term, Value
@@ -24,6 +24,10 @@ class ConditionSpec:
     """When it holds, in a line."""
     holds: Callable[..., bool]
     """Called with what is sensed and the arguments by name."""
+
+    def usage(self, name: str) -> str:
+        """Return how it is written as ``name``: ``above(Object, Height)``."""
+        return usage_of(name, self.parameters)
 
 
 def _touching(sense: Sense, *, object: Thing, other: Thing) -> bool:
