@@ -95,7 +95,7 @@ def test_what_it_holds_is_inside_it_and_moves_with_it(squeezed: Log) -> None:
 
 
 def test_pressed_hard_it_keeps_what_a_hand_leaves_in_it(squeezed: Log) -> None:
-    pressing = squeezed.actions[2]
+    pressing = next(action for action in squeezed.actions if action.term.functor == "squeeze")
     end = int(np.searchsorted(squeezed.particles.tick, pressing.end)) - 1
     assert held(squeezed)[:end].min() == pytest.approx(2 * DRY, abs=2 * squeezed.particles.mass[0])
 

@@ -56,7 +56,7 @@ def test_a_step_towards_a_place_stays_within_the_joints_speeds(right_arm: ArmKin
 
 def test_a_block_is_grasped_lifted_and_held_with_the_commanded_force() -> None:
     log = run(NEAR, "sequence([grasp(rightGripper, block1, 20), lift(rightGripper, 0.1), hold(rightGripper, 0.3)])")
-    assert outcomes(log) == {"grasp": "done", "lift": "done", "hold": "done"}
+    assert outcomes(log) == {"grasp": "done", "reach": "done", "lift": "done", "hold": "done"}
     height = log.poses[:, log.index("block1"), 2]
     assert height[-1] - height[0] == pytest.approx(0.1, abs=0.003)
     held = log.channels["rightGripper.pad_force"][-200:]
@@ -65,7 +65,7 @@ def test_a_block_is_grasped_lifted_and_held_with_the_commanded_force() -> None:
 
 def test_what_is_out_of_reach_is_an_outcome_and_ends_the_plan() -> None:
     log = run(FAR, "sequence([grasp(rightGripper, block1, 20), lift(rightGripper, 0.1)])")
-    assert outcomes(log) == {"grasp": "unreachable"}
+    assert outcomes(log) == {"grasp": "unreachable", "reach": "unreachable"}
     assert "away" in str(log.actions[0].evidence["reason"])
 
 

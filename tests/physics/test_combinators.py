@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from tests.physics.test_programs import FakeHand, carried_out
+from tests.physics.test_programs import FakeHand, actions_of, carried_out
 from tests.scenes import EGG_IN_HAND, scene
 
 from prolepsis.errors import InputError, PlanError, UnknownNameError
@@ -94,6 +94,22 @@ def test_an_action_within_an_action_is_an_event_of_its_own(two_hands: Scene) -> 
     assert ends[-1].evidence == {"times": 2.0}
 
 
+def test_a_grasp_begins_with_reaching_which_takes_no_time_of_its_own(two_hands: Scene) -> None:
+    plans = ("grasp(hand1, egg1, 5)", "sequence([reach(hand1, egg1), grasp(hand1, egg1, 5)])")
+    once, apart = (actions_of(carried_out(plan, two_hands, FakeHand((0.2, 0.1, 0.95)))) for plan in plans)
+    assert [name for name, _, _ in once] == ["reach(hand1,egg1)", "grasp(hand1,egg1,5)"]
+    (_, began, reached), (_, first, last) = once
+    assert began == first and reached < last
+    # A hand that is there already does not reach.
+    assert apart == [("reach(hand1,egg1)", 0, reached), ("grasp(hand1,egg1,5)", reached, last)]
+
+
+def test_what_ends_within_what_goes_on_costs_no_time(two_hands: Scene) -> None:
+    said = carried_out("sequence([together([wait(0.1), wait(0.3), wait(0.2)]), wait(0.05)])", two_hands)
+    ends = {name: end for name, _, end in actions_of(said)}
+    assert ends == {"wait(0.1)": 100, "wait(0.2)": 200, "wait(0.3)": 300, "wait(0.05)": 350}
+
+
 def test_what_fails_says_so_and_is_raised_for_what_it_is_part_of(two_hands: Scene) -> None:
     hand = FakeHand((0.0, 0.0, 0.722))
 
@@ -103,6 +119,7 @@ def test_what_fails_says_so_and_is_raised_for_what_it_is_part_of(two_hands: Scen
 
     behaviour = as_event(Term("try", ("hand1",)), stuck(hand.sense(0.0)), hand.sense(0.0))
     next(behaviour)
+    behaviour.send(hand.sense(0.0))
     (end,) = behaviour.send(hand.sense(0.0))
     assert isinstance(end, End)
     assert (end.outcome, end.evidence["reason"]) == ("unreachable", "too far")

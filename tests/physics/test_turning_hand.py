@@ -67,7 +67,12 @@ def test_the_lip_stays_over_the_target_and_nothing_touches_it(side: float, x: fl
     pouring = f"pour(hand1, cup1, cup2, 1.9, 2.0, {height}, {offset}, 0.2)"
     log = run(situation, f"sequence([grasp(hand1, cup1, {GRIP}), lift(hand1, 0.03), {pouring}])")
     assert touching(log) == {frozenset(p) for p in (("cup1", "table1"), ("cup2", "table1"), ("cup1", "hand1"))}
-    pour = log.actions[2]
+    pour, bring, tilt = log.actions[2:]
+    assert [str(part.term) for part in (bring, tilt)] == [
+        "bring(hand1,cup2)",
+        f"tilt(hand1,{-1.9 if side > 0 else 1.9})",
+    ]
+    assert pour.start == bring.start < bring.end == tilt.start < tilt.end < pour.end
     _, tilts = frames(log, "cup1", range(pour.start, pour.end))
     turning = pour.start + int(np.flatnonzero(tilts[:, 2, 2] < np.cos(0.1))[0])
     ticks = range(turning, pour.end, 10)

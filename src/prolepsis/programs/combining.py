@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from prolepsis.programs.commands import ActionFailedError, Behaviour, Command, End, Sense
+from prolepsis.programs.commands import ActionFailedError, Behaviour, Command, Sense, is_instant
 
 Maker = Callable[[Sense], Behaviour]
 """Starts an action, given what is sensed then."""
@@ -13,38 +13,17 @@ MOST_TIMES = 1000
 
 
 def in_sequence(makers: Sequence[Maker]) -> Maker:
-    """Return what does one after the other; an action that fails ends it."""
+    """Return what does one after the other; an action that fails ends it.
+
+    What is dropped ends nothing: a robot that has lost what it held does not know it by itself.
+    """
 
     def begin(sense: Sense) -> Behaviour:
-        ended: tuple[Command, ...] = ()
         for maker in makers:
-            behaviour, fresh = maker(sense), True
-            while True:
-                try:
-                    made = next(behaviour) if fresh else behaviour.send(sense)
-                except StopIteration as stopped:
-                    sense = stopped.value
-                    break
-                except ActionFailedError:
-                    if ended:
-                        yield ended
-                    raise
-                fresh = False
-                # That an action has ended takes no time: the next one begins at the same tick.
-                if made and all(isinstance(command, End) and command.outcome in GOES_ON for command in made):
-                    ended += made
-                    continue
-                sense = yield (*ended, *made)
-                ended = ()
-        if ended:
-            sense = yield ended
+            sense = yield from maker(sense)
         return sense
 
     return begin
-
-
-GOES_ON = ("done", "dropped")
-"""Outcomes after which a sequence goes on: a robot that has lost what it held does not know it by itself."""
 
 
 def all_together(makers: Sequence[Maker]) -> Maker:
@@ -55,17 +34,24 @@ def all_together(makers: Sequence[Maker]) -> Maker:
         going: list[Behaviour] = []
         failure: ActionFailedError | None = None
         while fresh or going:
+            instant: list[Command] = []
             commands: list[Command] = []
             still: list[Behaviour] = []
             for behaviour in (*going, *fresh):
                 try:
-                    commands += behaviour.send(sense) if behaviour in going else next(behaviour)
+                    made = behaviour.send(sense) if behaviour in going else next(behaviour)
+                    while is_instant(made):
+                        instant += made
+                        made = behaviour.send(sense)
+                    commands += made
                     still.append(behaviour)
                 except StopIteration:
                     pass
                 except ActionFailedError as failed:
                     failure = failure or failed
             going, fresh = still, []
+            if instant:
+                sense = yield tuple(instant)
             if going:
                 sense = yield tuple(commands)
         if failure is not None:
@@ -83,6 +69,8 @@ def repeated(holds: Callable[[Sense], bool], maker: Maker, condition: str) -> Ma
             if holds(sense):
                 return sense
             sense = yield from maker(sense)
+            # What takes no time would change nothing.
+            sense = yield ()
         raise ActionFailedError("timed_out", f"{condition} does not hold after {MOST_TIMES} times")
 
     return begin

@@ -258,4 +258,10 @@ class Sense:
 
 
 Behaviour = Generator[tuple[Command, ...], Sense, Sense]
-"""A program: at each tick it yields commands and receives what is sensed at the next; it returns its last sense."""
+"""A program: at each tick it yields commands and receives what is sensed at the next; it returns its last sense. That
+actions begin or end it yields apart: this takes no time, and it receives what is sensed at the same tick."""
+
+
+def is_instant(commands: tuple[Command, ...]) -> bool:
+    """Return whether commands take no time: they only say that actions begin or end."""
+    return bool(commands) and all(isinstance(command, Begin | End) for command in commands)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from prolepsis.programs.action import ACTIONS
-from prolepsis.programs.commands import ActionFailedError, Begin, Behaviour, Command, End, Note, Sense
+from prolepsis.programs.commands import ActionFailedError, Begin, Behaviour, End, Note, Sense, is_instant
 from prolepsis.scene.scene import Scene
 from prolepsis.terms import Term, Value
 from prolepsis.things import Thing
@@ -20,7 +20,7 @@ def as_event(term: Term, behaviour: Behaviour, sense: Sense) -> Behaviour:
     hands = [name for name in sense.hands if name in term.args]
     held = {name for name in hands if sense.hands[name].grip > 0 and sense.hands[name].pad_force > 0}
     lost = dict.fromkeys(hands, 0)
-    commands: tuple[Command, ...] = (Begin(term=term),)
+    sense = yield (Begin(term=term),)
     first = True
     while True:
         try:
@@ -30,21 +30,19 @@ def as_event(term: Term, behaviour: Behaviour, sense: Sense) -> Behaviour:
             break
         except ActionFailedError as failed:
             evidence["reason"] = failed.detail
-            yield (*commands, End(term=term, outcome=failed.outcome, evidence=evidence))
+            yield (End(term=term, outcome=failed.outcome, evidence=evidence),)
             raise
         first = False
         for note in made:
             if isinstance(note, Note):
                 evidence |= note.evidence
-        sense = yield (*commands, *made)
-        commands = ()
-        for name in hands:
+        sense = yield made
+        for name in hands if not is_instant(made) else ():
             hand = sense.hands[name]
             evidence["peak_pad_force"] = max(float(evidence.get("peak_pad_force", 0.0)), hand.pad_force)
             lost[name] = lost[name] + 1 if hand.grip > 0 and hand.pad_force == 0 else 0
     dropped = any(lost[name] >= LOST_TICKS for name in held)
-    sense = yield (*commands, End(term=term, outcome="dropped" if dropped else "done", evidence=evidence))
-    return sense
+    return (yield (End(term=term, outcome="dropped" if dropped else "done", evidence=evidence),))
 
 
 def nested(name: str, scene: Scene, sense: Sense, **arguments: Any) -> Behaviour:

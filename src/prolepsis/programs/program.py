@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from prolepsis.programs.commands import ActionFailedError, Behaviour, Command, Sense
+from prolepsis.programs.commands import ActionFailedError, Behaviour, Command, Sense, is_instant
 from prolepsis.terms import Value
 
 
@@ -35,14 +35,16 @@ class Running:
 
     def step(self, sense: Sense) -> tuple[Command, ...]:
         """Return the commands of this tick."""
-        if self.ended:
-            return ()
-        try:
-            if self._fresh:
-                self._fresh = False
-                return next(self._behaviour)
-            return self._behaviour.send(sense)
-        except (StopIteration, ActionFailedError):
-            # What failed has said so at its end; what should have come after it is not done.
-            self.ended = True
-            return ()
+        commands: tuple[Command, ...] = ()
+        while not self.ended:
+            try:
+                made = next(self._behaviour) if self._fresh else self._behaviour.send(sense)
+            except (StopIteration, ActionFailedError):
+                # What failed has said so at its end; what should have come after it is not done.
+                self.ended = not commands
+                break
+            self._fresh = False
+            commands += made
+            if not is_instant(made):
+                break
+        return commands

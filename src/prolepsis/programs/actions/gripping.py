@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from prolepsis.programs.action import FORCE, HAND, OBJECT, Parameter, action
-from prolepsis.programs.actions.motion import HEIGHT, open_to, reach, stay, within_workspace
+from prolepsis.programs.actions.motion import HEIGHT, open_to, stay, within_workspace
 from prolepsis.programs.commands import Behaviour, CloseGripper, Sense
 from prolepsis.programs.grasping import CLEARANCE, grip_as_turned
+from prolepsis.programs.nesting import nested
 from prolepsis.scene.scene import Scene
 from prolepsis.things import Thing
 
@@ -43,7 +44,8 @@ def grasp(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, force: floa
     here = sense.hands[hand.name]
     way = np.subtract(grip.offset, here.offset)
     if np.abs(way).max() > CLEARANCE or here.opening < grip.width:
-        sense = yield from reach(scene, sense, hand=hand, object=object, speed=0.25, height=height)
+        aside = {"height": height} if height else {}
+        sense = yield from nested("reach", scene, sense, hand=hand, object=object, **aside)
         grip = grip_as_turned(hand, object, sense, height)
     return (yield from close_from(hand, grip.width + CLEARANCE, force, sense))
 

@@ -14,6 +14,7 @@ from prolepsis.programs.actions.turning import RATE
 from prolepsis.programs.commands import Behaviour, Sense
 from prolepsis.programs.following import follow
 from prolepsis.programs.lip import Below, heights, lip_of
+from prolepsis.programs.nesting import as_event
 from prolepsis.programs.outline import outline
 from prolepsis.programs.turning import course, matrix, rolled
 from prolepsis.robots.hand import HAND as ROBOT
@@ -21,6 +22,7 @@ from prolepsis.robots.hand import rotate
 from prolepsis.robots.turned import inverse, product, turn_of, turned
 from prolepsis.scene.robot_world import reference_of, robot_of_gripper
 from prolepsis.scene.scene import Scene
+from prolepsis.terms import Term
 from prolepsis.things import FloatArray, Quaternion, Thing
 
 LEVEL = 0.05
@@ -102,11 +104,13 @@ def pour(
     goal = np.array([middle[0], middle[1], top[:, 2].max()]) + side * offset * left
     tilted = np.array([level @ rolled(-side * a) @ lip for a in angles])
     way = goal - tilted + lifts[:, None] * (0.0, 0.0, 1.0) - here
-    sense = yield from travel_over(hand, sense, way[0], APPROACH_ACCELERATION, APPROACH_SPEED)
+    approach = travel_over(hand, sense, way[0], APPROACH_ACCELERATION, APPROACH_SPEED)
+    sense = yield from as_event(Term("bring", (hand.name, target.name)), approach, sense)
     # The way is seen from where the hand is, the commands from where they were: the servo may lag by a little.
     grip = product(inverse(ahead), state.orientation)
     turns = [turn_of(reference, product(turned(ahead, (0.0, 0.0, -side * float(a) - lean)), grip)) for a in angles]
-    sense = yield from follow(hand, sense, np.asarray(state.offset) + way, np.unwrap(turns, axis=0))
+    turning = follow(hand, sense, np.asarray(state.offset) + way, np.unwrap(turns, axis=0))
+    sense = yield from as_event(Term("tilt", (hand.name, round(-side * angle, 3))), turning, sense)
     return (yield from stay(duration, sense))
 
 
