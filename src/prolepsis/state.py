@@ -25,6 +25,8 @@ JOINT_SOLREF = (0.002, 1.0)
 class ContactForces:
     """Active contacts of the last substep; c contacts."""
 
+    numbers: IntArray
+    """Their numbers, shape (c,)."""
     geoms: IntArray
     """The two geoms, shape (c, 2)."""
     bodies: IntArray
@@ -220,6 +222,7 @@ class State:
         frames = contact.frame[active].reshape(-1, 3, 3)
         local = self.data.efc_force[rows[:, None] + np.arange(3)]
         return ContactForces(
+            numbers=np.flatnonzero(active),
             geoms=geoms,
             bodies=self.model.geom_bodyid[geoms],
             normal_force=local[:, 0],

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -84,13 +86,13 @@ def test_bonds_next_to_a_crack_weaken_once() -> None:
     graph = egg_graph()
     broken = np.zeros(len(graph.bonds), dtype=bool)
     broken[0] = True
-    once = graph.without(broken, 0.5)
+    once = graph.after_breaking(broken, 0.5)
     kept = graph.strengths[1:]
     ratio = once.strengths / kept
     assert set(np.round(ratio, 12)) == {0.5, 1.0}
     again = np.zeros(len(once.bonds), dtype=bool)
     again[int(np.flatnonzero(ratio == 0.5)[0])] = True
-    twice = once.without(again, 0.5)
+    twice = once.after_breaking(again, 0.5)
     assert (twice.strengths / graph.strengths.min() > 0.24).all()
     assert twice.weakened.sum() >= once.weakened.sum() - 1
 
@@ -99,7 +101,7 @@ def test_a_graph_cut_in_two_has_two_parts() -> None:
     graph = egg_graph()
     side = graph.centres[:, 0] > 0
     crossing = side[graph.bonds[:, 0]] != side[graph.bonds[:, 1]]
-    parts = graph.without(crossing, 1.0).fragments()
+    parts = graph.without(crossing).fragments()
     assert sorted(len(part.nodes) for part in parts) == sorted([int(side.sum()), int((~side).sum())])
     assert sorted(int(k) for part in parts for k in part.nodes) == list(range(30))
 
@@ -107,3 +109,24 @@ def test_a_graph_cut_in_two_has_two_parts() -> None:
 def test_a_shell_that_cannot_bear_its_force_is_refused() -> None:
     with pytest.raises(KnowledgeError, match="cannot bear 100000 N between plates"):
         egg_graph(1e5)
+
+
+def test_a_membrane_holds_a_cracked_bond_until_it_is_pulled_too_hard() -> None:
+    graph = replace(egg_graph(), membrane_strength=100.0, membrane_stretch=2e-3)
+    side = graph.centres[:, 0] > 0
+    ring = side[graph.bonds[:, 0]] != side[graph.bonds[:, 1]]
+    cracked = graph.after_breaking(ring, 1.0)
+    assert len(cracked.fragments()) == 1
+    ends = np.array([[0.0285, 0.0, 0.0], [-0.0285, 0.0, 0.0]])
+    away = np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]])
+    # A pull along the axis is shared by the cracks round the middle, each with its width.
+    borne = 100.0 * graph.widths[ring].sum()
+    for pull, gives_way in ((0.3 * borne, False), (1.5 * borne, True)):
+        opened = cracked.settled(ends, pull * away)
+        load = float(opened.loads(ends, pull * away)[opened.cracked].max())
+        assert load == pytest.approx(pull / borne, rel=0.15)
+        assert (load >= 1) is gives_way
+    # Pressed together, closed cracks bear.
+    pressed = cracked.settled(ends, -10.0 * away)
+    assert pressed.loads(ends, -10.0 * away)[pressed.cracked].max() < 1
+    assert len(graph.after_breaking(ring, 1.0).after_breaking(ring, 1.0).fragments()) == 2

@@ -6,6 +6,9 @@ add up: by membrane stress, which in a closed shell goes with the stress peak ar
 pieces are too coarse to resolve, so that its strength is a calibrated one; and by bending, which matters in
 open shells and shards and which the pieces do resolve, so that its strength is the material's.
 
+Where a membrane lines the shell, a bond that gives way is cracked, a hinge: closed, its rough faces press on each other
+and shear; open, the soft membrane alone holds it, until that tears as well. Without a membrane it is gone at once.
+
 Source: frame elements (any text on the finite element method); Rankine's criterion for brittle materials.
 """
 
@@ -16,6 +19,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from prolepsis.things import BoolArray, FloatArray, IntArray
+
+HINGE = 1.0e-3
+"""Share of its stiffness in bending and twist that a cracked bond keeps [1]: next to nothing."""
+SETTLING = 4
+"""Rounds in which it is found which cracks are open; mostly two are enough."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -46,6 +54,14 @@ class BondGraph:
     """Young's modulus [Pa]."""
     poisson_ratio: float
     """Poisson's ratio [1]."""
+    membrane_strength: float
+    """Pull that the membrane bears for each length of a crack [N/m]; 0 without one."""
+    membrane_stretch: float
+    """How far it stretches until it tears [m]."""
+    cracked: BoolArray
+    """Whether a bond has given way and a membrane lines it, shape (m,)."""
+    opened: BoolArray
+    """Whether a cracked bond is open, shape (m,)."""
     spread: float
     """Length over which a contact force is shared among pieces [m]."""
     response: FloatArray = field(default_factory=lambda: np.zeros((0, 0)))
@@ -88,8 +104,32 @@ class BondGraph:
             Load over strength [1], shape (m,); a bond gives way at 1.
         """
         wrench = np.einsum("cij,cj->i", self.wrenches_per_force(points), forces)
-        membrane, bending = self.stresses((self.response @ wrench).reshape(-1, 6))
-        return membrane / self.strengths + bending / self.bending_strength
+        return self.ratios((self.response @ wrench).reshape(-1, 6))
+
+    def ratios(self, components: FloatArray) -> FloatArray:
+        """Return load over strength of each bond [1], shape (..., m), under components as ``stresses`` takes them."""
+        membrane, bending = self.stresses(components)
+        loads = membrane / self.strengths + bending / self.bending_strength
+        if not self.cracked.any():
+            return loads
+        pull = np.maximum(components[..., 0], 0.0) / (self.widths * self.membrane_strength)
+        return np.where(self.cracked, pull, loads)
+
+    def settled(self, points: FloatArray, forces: FloatArray) -> BondGraph:
+        """Return the assembled graph with those cracks open that contact forces pull open, and the others closed.
+
+        Args:
+            points: Points of attack in the common frame [m], shape (c, 3).
+            forces: Forces in the same frame [N], shape (c, 3).
+        """
+        graph = self if len(self.response) else self.assembled()
+        wrench = np.einsum("cij,cj->i", self.wrenches_per_force(points), forces)
+        for _ in range(SETTLING):
+            opened = graph.cracked & ((graph.response @ wrench).reshape(-1, 6)[:, 0] > 0)
+            if np.array_equal(opened, graph.opened):
+                break
+            graph = replace(graph, opened=opened).assembled()
+        return graph
 
     def stored(self, points: FloatArray, forces: FloatArray) -> float:
         """Return twice the elastic energy that contact forces store in the bonds [J]: forces times their ways.
@@ -115,8 +155,8 @@ class BondGraph:
         bending = 6 * np.abs(components[..., 4]) / (self.widths * self.thickness**2)
         return normal / 2 + np.sqrt((normal / 2) ** 2 + shear**2), bending
 
-    def without(self, broken: BoolArray, weakening: float) -> BondGraph:
-        """Return the graph without the ``broken`` bonds, shape (m,), its crack tips weakened.
+    def after_breaking(self, broken: BoolArray, weakening: float) -> BondGraph:
+        """Return the graph in which ``broken`` bonds, shape (m,), have cracked or gone, its crack tips weakened.
 
         Args:
             broken: True for each bond that has given way.
@@ -126,15 +166,38 @@ class BondGraph:
         touched[self.bonds[broken].ravel()] = True
         tip = touched[self.bonds].any(axis=1) & ~self.weakened
         strengths = np.where(tip, self.strengths * weakening, self.strengths)
-        kept = ~broken
+        cracked = replace(
+            self,
+            strengths=strengths,
+            weakened=self.weakened | tip,
+            cracked=self.cracked | broken,
+            opened=self.opened | broken,
+        )
+        return cracked.without(broken & self.cracked if self.membrane_strength else broken)
+
+    def without(self, gone: BoolArray) -> BondGraph:
+        """Return the graph without the bonds that are ``gone``, shape (m,)."""
+        kept = ~gone
         return replace(
             self,
             bonds=self.bonds[kept],
             widths=self.widths[kept],
-            strengths=strengths[kept],
-            weakened=(self.weakened | tip)[kept],
+            strengths=self.strengths[kept],
+            weakened=self.weakened[kept],
+            cracked=self.cracked[kept],
+            opened=self.opened[kept],
             response=np.zeros((0, 0)),
         )
+
+    def round_pieces(self, pieces: IntArray) -> BoolArray:
+        """Return which bonds join one of some pieces, given as positions in ``nodes``, to another, shape (m,)."""
+        chosen = np.zeros(len(self.nodes), dtype=bool)
+        chosen[pieces] = True
+        return chosen[self.bonds[:, 0]] | chosen[self.bonds[:, 1]]
+
+    def joined(self, chosen: BoolArray) -> list[tuple[int, int]]:
+        """Return the numbers of the pieces that the ``chosen`` bonds, shape (m,), join."""
+        return [(int(a), int(b)) for a, b in self.nodes[self.bonds[chosen]]]
 
     def fragments(self) -> tuple[BondGraph, ...]:
         """Return the connected parts, ordered by their lowest piece."""
@@ -162,6 +225,8 @@ class BondGraph:
             widths=self.widths[inside],
             strengths=self.strengths[inside],
             weakened=self.weakened[inside],
+            cracked=self.cracked[inside],
+            opened=self.opened[inside],
             response=np.zeros((0, 0)),
         )
 
@@ -230,6 +295,12 @@ def _stiffness(graph: BondGraph) -> FloatArray:
         ],
         axis=1,
     )
+    stiffness[graph.cracked, 3:5] *= HINGE
+    if graph.opened.any():
+        pulled = graph.membrane_strength * w / graph.membrane_stretch
+        turned = pulled * w**2 / 12
+        soft = np.stack([pulled, pulled, pulled, HINGE * turned, HINGE * turned, turned], axis=1)
+        stiffness[graph.opened] = soft[graph.opened]
     return stiffness.ravel()
 
 

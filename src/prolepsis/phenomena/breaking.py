@@ -8,17 +8,20 @@ go on as bodies of their own, which may break again.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from prolepsis.phenomena.bond_graph import BondGraph
+from prolepsis.phenomena.cascade import Cascade, cascade
 from prolepsis.phenomena.phenomenon import Detachment, Draw, Phenomenon
 from prolepsis.phenomena.shell_calibration import calibrated_graph
 from prolepsis.phenomena.shell_contact import ShellContact
+from prolepsis.phenomena.shell_dents import ShellDents
 from prolepsis.scene.world import MAX_STEP
 from prolepsis.state import State
-from prolepsis.things import FloatArray, Thing
+from prolepsis.things import FloatArray, IntArray, Thing
 
 CONTACT_STEP = 2.5e-4
 """Substep [s] while something is near an intact shell: an egg's impact lasts some 1.5 ms, so six substeps."""
@@ -41,8 +44,8 @@ STEADY_WAY = 3.0e-3
 """... nothing is about to touch: it is farther away than the fastest motion goes in this time, three ticks [s] ..."""
 STEADY_LOAD = 0.8
 """... and no bond bears more than this part of its strength [1]."""
-TOGETHER = 0.9
-"""Bonds within this fraction of the most overloaded one give way with it, which keeps a cascade short."""
+RESIDUAL = 0.3
+"""Share of the breaking force that a cracked shell bears where it is pressed in [1]."""
 
 
 @dataclass(kw_only=True, slots=True)
@@ -61,14 +64,37 @@ class Fragment:
     """Greatest bond load over strength at the last full check [1]."""
     total: float = 0.0
     """Sum of the normal forces when it was last looked at [N]."""
+    parts: Sequence[BondGraph] = ()
+    """What it has just fallen apart into."""
     rows: FloatArray | None = None
     """All contact forces in the scene at the last full check [N], as MuJoCo lists them."""
+
+    def set(self, parts: Sequence[BondGraph]) -> None:
+        """Go on as what is left: one graph, or several if it has fallen apart."""
+        if len(parts) > 1:
+            self.parts = parts
+        else:
+            self.graph, self.calm = parts[0], _calm(parts[0])
 
     def is_steady(self, rows: FloatArray) -> bool:
         """Return whether the contact forces are so near those last checked that no bond can have come to break."""
         if self.rows is None or self.rows.shape != rows.shape:
             return False
         return SLIDING * self.load + float(np.abs(rows - self.rows).sum()) / self.calm < 1
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Pressing:
+    """What presses on a fragment; c contacts."""
+
+    numbers: IntArray
+    """Their numbers, shape (c,)."""
+    points: FloatArray
+    """In the shell's frame [m], shape (c, 3)."""
+    forces: FloatArray
+    """On the fragment, in the same frame [N], shape (c, 3)."""
+    normal: FloatArray
+    """Normal forces [N], shape (c,)."""
 
 
 class Breaking(Phenomenon):
@@ -103,14 +129,18 @@ class Breaking(Phenomenon):
             fracture_strain=quantities["fractureStrain"],
             mass=thing.mass,
             breaking_force=breaking_force,
+            membrane_strength=quantities.get("shellMembraneStrength", 0.0),
+            membrane_stretch=quantities.get("shellMembraneStretch", 1.0),
         )
         self.fragments = [Fragment(body=thing.name, graph=graph, origin=np.zeros(3), calm=_calm(graph))]
+        self._residual = RESIDUAL * breaking_force
         self.intact = True
         self.load = 0.0
         """Greatest bond load over strength in the tick [1]; 0 while the screen shows that none can break."""
         self.force = 0.0
         """Greatest sum of normal forces on one body in the tick [N]."""
         self._pressed_most = -1
+        self._changed = False
         self._fresh = True
         self._ticks = 0
         self._steady = False
@@ -119,6 +149,7 @@ class Breaking(Phenomenon):
         self._version = -1
         self._watched: dict[int, Fragment] = {}
         self._contact = ShellContact(state, thing, quantities["plateStiffness"], quantities["poleStiffnessRatio"])
+        self._dents = ShellDents(thing, self._residual, quantities.get("shellMembraneStretch", 0.0))
         self._contact.update(state, None)
         stiffest = 2 * quantities["plateStiffness"] * math.sqrt(quantities["poleStiffnessRatio"])
         self._contact_step = min(CONTACT_STEP, CONTACT_PHASE * math.sqrt(thing.mass / stiffest))
@@ -161,7 +192,13 @@ class Breaking(Phenomenon):
                 fragment.total = total
                 detached += self._check(state, body, fragment)
         self._fresh = False
-        if detached:
+        if self.intact and self._dents:
+            self._steady = False
+            through = self._dents.grow(state)
+            if through and not self.fragments[0].parts:
+                detached += self._punch(state, through)
+        if self._changed:
+            self._changed = False
             state.set_attribute(self.thing.name, "broken", 1.0)
             state.set_attribute(self.shell_name, "broken", 1.0)
             self._fall_apart(state)
@@ -211,59 +248,78 @@ class Breaking(Phenomenon):
         if not self._fresh and fragment.is_steady(forces):
             self.load = max(self.load, fragment.load)
             return []
+        pressing = self._pressing(state, body, fragment)
+
+        def shares(relief: float | None = None) -> FloatArray:
+            if not self.intact:
+                return np.ones(len(pressing.normal))
+            return self._dents.shares(state, pressing.numbers, pressing.normal, relief)
+
+        # A crack runs faster than what presses moves: the force falls before that has come any farther.
+        made = self._cascade(fragment.graph, pressing, shares(), shares)
+        fragment.load = made.load
+        fragment.rows = forces.copy()
+        if not made.changed:
+            return []
+        self._changed = True
+        fragment.set(made.parts)
+        if self.intact:
+            eased = made.shares < 1
+            self._dents.begin(state, pressing.numbers[eased], (made.shares * pressing.normal)[eased])
+        return self._detached(made.broken, float(pressing.normal.max()))
+
+    def _cascade(
+        self, graph: BondGraph, pressing: Pressing, shares: FloatArray, ease: Callable[[float], FloatArray]
+    ) -> Cascade:
+        made = cascade(
+            graph, pressing.points, pressing.forces, pressing.normal, self.weakening, self._residual, shares, ease
+        )
+        self.load = max(self.load, made.worst)
+        return made
+
+    def _punch(self, state: State, points: Sequence[FloatArray]) -> list[Detachment]:
+        """Let the pieces at points [m] come loose: they are pressed in farther than the membrane stretches.
+
+        What pressed on them now presses on the rest.
+        """
+        fragment = self.fragments[0]
+        graph, body = fragment.graph, state.data.body(fragment.body)
+        places = (np.array(points) - body.xpos) @ body.xmat.reshape(3, 3) + fragment.origin
+        pieces = np.linalg.norm(graph.centres - places[:, None], axis=2).argmin(axis=1)
+        cracking = graph.round_pieces(pieces) & ~graph.cracked
+        cracked = graph.after_breaking(cracking, self.weakening)
+        parts = cracked.without(cracked.round_pieces(pieces)).fragments()
+        rest = max(parts, key=lambda part: len(part.nodes))
+        pressing = self._pressing(state, body.id, fragment)
+        all_of_it = np.ones(len(pressing.normal))
+        made = self._cascade(rest.assembled(), pressing, all_of_it, lambda _: all_of_it)
+        self._changed = True
+        fragment.set((*(part for part in parts if part is not rest), *made.parts))
+        return self._detached([*graph.joined(cracking), *made.broken], self.force)
+
+    def _pressing(self, state: State, body: int, fragment: Fragment) -> Pressing:
+        """Return what presses on a fragment."""
         contacts = state.contact_forces()
         second = contacts.bodies[:, 1] == body
         chosen = second | (contacts.bodies[:, 0] == body)
-        sign = np.where(second[chosen], 1.0, -1.0)[:, None]
-        detached = self._break(
-            state, fragment, contacts.points[chosen], sign * contacts.force[chosen], contacts.normal_force[chosen]
-        )
-        fragment.rows = forces.copy()
-        return detached
-
-    def _break(
-        self, state: State, fragment: Fragment, points: FloatArray, forces: FloatArray, normal: FloatArray
-    ) -> list[Detachment]:
         turn = state.data.body(fragment.body).xmat.reshape(3, 3)
-        local_points = (points - state.data.body(fragment.body).xpos) @ turn + fragment.origin
-        local_forces = forces @ turn
-        detached: list[Detachment] = []
-        graph = fragment.graph
-        elastic, stored, share = 0.0, 0.0, 1.0
-        while len(graph.bonds):
-            ratio = graph.loads(local_points, share * local_forces)
-            worst = float(ratio.max())
-            self.load = max(self.load, worst)
-            fragment.load = worst
-            if worst < 1:
-                break
-            broken = ratio >= max(1.0, TOGETHER * worst)
-            if not detached:
-                elastic, stored = self._contact.stored(normal), graph.stored(local_points, local_forces)
-            for a, b in graph.nodes[graph.bonds[broken]]:
-                detached.append(
-                    Detachment(
-                        thing=self.index, a=self.pieces[int(a)], b=self.pieces[int(b)], force=float(normal.max())
-                    )
-                )
-            graph = graph.without(broken, self.weakening)
-            if len(graph.fragments()) > 1:
-                break
-            graph = graph.assembled()
-            if self.intact:
-                # A crack runs faster than what presses moves: the way stays, and the force falls as the shell softens.
-                share = elastic / (elastic + graph.stored(local_points, local_forces) - stored)
-        if detached:
-            fragment.graph = graph
-            fragment.calm = _calm(graph) if len(graph.response) else math.inf
-        return detached
+        sign = np.where(second[chosen], 1.0, -1.0)[:, None]
+        return Pressing(
+            numbers=contacts.numbers[chosen],
+            points=(contacts.points[chosen] - state.data.body(fragment.body).xpos) @ turn + fragment.origin,
+            forces=sign * contacts.force[chosen] @ turn,
+            normal=contacts.normal_force[chosen],
+        )
+
+    def _detached(self, broken: Sequence[tuple[int, int]], force: float) -> list[Detachment]:
+        return [Detachment(thing=self.index, a=self.pieces[a], b=self.pieces[b], force=force) for a, b in broken]
 
     def _fall_apart(self, state: State) -> None:
         """Give the parts of a graph that is no longer connected bodies of their own."""
         new: list[Fragment] = []
         for fragment in self.fragments:
-            parts = fragment.graph.fragments()
-            if len(parts) == 1:
+            parts = fragment.parts
+            if not parts:
                 new.append(fragment)
                 continue
             groups = [[self.pieces[int(k)] for k in part.nodes] for part in parts]
@@ -295,8 +351,7 @@ def _calm(graph: BondGraph) -> float:
     points = np.concatenate([graph.centres, graph.centres[graph.bonds].mean(axis=1)])
     wrenches = np.moveaxis(graph.wrenches_per_force(points), 0, 1).reshape(6 * len(graph.nodes), -1)
     components = (graph.response @ wrenches).reshape(len(graph.bonds), 6, len(points), 3)
-    membrane, bending = graph.stresses(np.linalg.norm(components, axis=3).transpose(2, 0, 1))
-    return float(BETWEEN_SAMPLES / (membrane / graph.strengths + bending / graph.bending_strength).max())
+    return float(BETWEEN_SAMPLES / graph.ratios(np.linalg.norm(components, axis=3).transpose(2, 0, 1)).max())
 
 
 def attach(state: State, draw: Draw) -> list[Breaking]:

@@ -39,6 +39,8 @@ def calibrated_graph(
     fracture_strain: float,
     mass: float,
     breaking_force: float,
+    membrane_strength: float = 0.0,
+    membrane_stretch: float = 1.0,
 ) -> BondGraph:
     """Return the bond graph of an ellipsoidal shell that breaks between plates at a given force.
 
@@ -51,6 +53,8 @@ def calibrated_graph(
         fracture_strain: Tensile strain at which the material breaks [1].
         mass: Mass of the shell with its contents [kg].
         breaking_force: Mean over all orientations of the force between plates at which it breaks [N].
+        membrane_strength: Pull that the membrane inside bears for each length of a crack [N/m]; 0 without one.
+        membrane_stretch: How far that stretches until it tears [m].
     """
     shell = ellipsoid_shell(semi_axes, piece_count, thickness)
     graph = BondGraph(
@@ -63,6 +67,10 @@ def calibrated_graph(
         strengths=np.ones(len(shell.bonds)),
         bending_strength=youngs_modulus * fracture_strain,
         weakened=np.zeros(len(shell.bonds), dtype=bool),
+        membrane_strength=membrane_strength,
+        membrane_stretch=membrane_stretch,
+        cracked=np.zeros(len(shell.bonds), dtype=bool),
+        opened=np.zeros(len(shell.bonds), dtype=bool),
         thickness=thickness,
         youngs_modulus=youngs_modulus,
         poisson_ratio=poisson_ratio,

@@ -30,10 +30,6 @@ class ShellContact:
         self._stiffness = 0.0
         self._version = -1
 
-    def stored(self, forces: FloatArray) -> float:
-        """Return twice the energy that normal forces [N] store where they act [J]."""
-        return float(forces @ forces) / self._stiffness
-
     def update(self, state: State, point: FloatArray | None) -> None:
         """Give its contacts the stiffness of the shell at ``point`` [m], or at its lowest point when None."""
         body = state.data.body(self._thing.name)

@@ -1,0 +1,97 @@
+"""A cascade: what contact forces overload gives way, the rest is loaded anew at once, until it bears or falls apart."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from prolepsis.phenomena.bond_graph import BondGraph
+from prolepsis.things import FloatArray, IntArray
+
+TOGETHER = 0.9
+"""Bonds within this fraction of the most overloaded one give way with it, which keeps a cascade short."""
+
+MOST_RELIEF = 1 / 3
+"""While it is crushed, the force falls at most to this part of what a cracked shell bears [1]; then cracks run on."""
+RELIEF_STEP = 0.9
+"""It is lowered by this factor at a time [1]."""
+ALMOST = 1.001
+"""What is pressed in by just the force that it bears stays [1]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Cascade:
+    """What has come of a shell under contact forces."""
+
+    parts: tuple[BondGraph, ...]
+    """What is left of it, one graph if it has not fallen apart."""
+    load: float
+    """Greatest load over strength at the end [1]."""
+    worst: float
+    """Greatest load over strength at all [1]."""
+    changed: bool
+    """Whether anything has given way."""
+    broken: tuple[tuple[int, int], ...]
+    """Pieces, by their numbers in the shell, whose bond was whole before."""
+    shares: FloatArray
+    """Share of each contact force that is left at the end [1], shape (c,)."""
+
+
+def cascade(
+    graph: BondGraph,
+    points: FloatArray,
+    forces: FloatArray,
+    normal: FloatArray,
+    weakening: float,
+    cracked_bears: float,
+    shares: FloatArray,
+    ease: Callable[[float], FloatArray],
+) -> Cascade:
+    """Let the bonds of an assembled graph give way to contact forces.
+
+    Args:
+        graph: A connected part of a shell.
+        points: Points of attack in the common frame [m], shape (c, 3).
+        forces: Forces in the same frame [N], shape (c, 3).
+        normal: Normal forces [N], shape (c,).
+        weakening: Factor on the strength of bonds next to a broken one [1].
+        cracked_bears: Force on a piece with nothing but cracks round it at which it comes loose [N].
+        shares: Share of each force that is really exerted [1], shape (c,).
+        ease: Returns that once something has given way, for a relief between 1 and ``MOST_RELIEF``.
+    """
+    load, worst = 0.0, 0.0
+    broken: list[tuple[int, int]] = []
+    parts, changed, relief = (graph,), False, 1.0
+    while len(graph.bonds) and len(parts) == 1:
+        ratio = graph.loads(points, shares[:, None] * forces)
+        load = float(ratio.max())
+        worst = max(worst, load)
+        gone = ratio >= max(1.0, TOGETHER * load)
+        if graph.cracked.any():
+            gone |= graph.round_pieces(_pressed_out(graph, points, shares * normal, cracked_bears))
+        if not gone.any():
+            break
+        broken += graph.joined(gone & ~graph.cracked)
+        changed = True
+        graph = graph.after_breaking(gone, weakening)
+        parts = graph.fragments()
+        if len(parts) == 1:
+            shares = ease(relief)
+            graph = graph.settled(points, shares[:, None] * forces)
+            parts = (graph,)
+            # What is crushed gives way before the cracks run on.
+            while relief > MOST_RELIEF and float(graph.loads(points, shares[:, None] * forces).max()) >= 1:
+                relief = max(RELIEF_STEP * relief, MOST_RELIEF)
+                shares = ease(relief)
+    return Cascade(parts=parts, load=load, worst=worst, changed=changed, broken=tuple(broken), shares=shares)
+
+
+def _pressed_out(graph: BondGraph, points: FloatArray, normal: FloatArray, cracked_bears: float) -> IntArray:
+    """Return the pieces, as positions in the graph, that are pressed harder than the cracks all round them bear."""
+    nearest = np.linalg.norm(graph.centres - points[:, None], axis=2).argmin(axis=1)
+    pressed = np.bincount(nearest, normal, len(graph.nodes))
+    held = np.zeros(len(graph.nodes), dtype=bool)
+    held[graph.bonds[~graph.cracked].ravel()] = True
+    return np.flatnonzero((pressed > ALMOST * cracked_bears) & ~held)
