@@ -27,6 +27,7 @@ TALL = 0.06
 """What is taller, or an open vessel, is grasped from the side if possible, what is lower from above [m]."""
 FROM_THE_SIDE = (0.0, 15.0, 30.0, 45.0, 60.0, 90.0)
 FROM_ABOVE = (60.0, 75.0, 90.0, 45.0, 30.0, 15.0, 0.0)
+FROM_AN_END = (30.0, 45.0, 60.0)
 """Pitches of the hand that are tried, in this order: 0 is level, 90 points down [degrees]."""
 ASIDE = (0.0, 25.0, -25.0, 50.0, -50.0)
 """Yaws that are tried, from the direction in which the object lies from the shoulder [degrees]."""
@@ -70,6 +71,23 @@ def least_width(object: Thing) -> float:
     return min(extent_along(object, rotate(object.orientation, _axis(k))) for k in range(3))
 
 
+def longest_axis(object: Thing) -> FloatArray:
+    """Return the unit vector along which an object reaches farthest, one of its own axes in the world, shape (3,)."""
+    axes = [rotate(object.orientation, _axis(k)) for k in range(3)]
+    return max(axes, key=lambda axis: round(extent_along(object, axis), 6))
+
+
+def yaw_of(orientation: Quaternion) -> float:
+    """Return the direction in which an orientation that is turned about the vertical faces [rad]."""
+    w, _, _, z = orientation
+    return 2 * math.atan2(z, w)
+
+
+def wrapped(angle: float) -> float:
+    """Return an angle between -pi and pi [rad]."""
+    return (angle + math.pi) % (2 * math.pi) - math.pi
+
+
 def way_to(hand: Thing, object: Thing, sense: Sense, height: float = 0.0) -> FloatArray:
     """Return the way from a hand to a place [m], shape (3,): ``height`` over the middle of an object."""
     seen = as_seen(object, sense)
@@ -88,8 +106,13 @@ def grip_as_turned(hand: Thing, object: Thing, sense: Sense, height: float) -> G
     return Grip(offset=_sum(here.offset, way), turn=here.turn, width=width, forward=triple(forward))
 
 
-def grips(hand: Thing, object: Thing, sense: Sense, height: float, arm: Arm, reference: Quaternion) -> Iterator[Grip]:
-    """Yield the grips of a hand on an arm that are wide enough, the most natural first."""
+def grips(
+    hand: Thing, object: Thing, sense: Sense, height: float, arm: Arm, reference: Quaternion, short: float = 0.0
+) -> Iterator[Grip]:
+    """Yield the grips of a hand on an arm that are wide enough, the most natural first.
+
+    The pads' middle stops ``short`` [m] of the middle of the object, so that another hand finds room.
+    """
     here = sense.hands[hand.name]
     seen = as_seen(object, sense)
     place = np.asarray(seen.position) + middle(seen) + (0.0, 0.0, height)
@@ -97,15 +120,21 @@ def grips(hand: Thing, object: Thing, sense: Sense, height: float, arm: Arm, ref
     bearing = arm.bearing(triple(place))
     # An open vessel may be full: its content is not to be touched.
     aside = bool(seen.shape.profile) or extent_along(seen, np.array([0.0, 0.0, 1.0])) > TALL
-    pitches = FROM_THE_SIDE if aside else FROM_ABOVE
-    for pitch, roll, away, higher in itertools.product(pitches, ROLLS, ASIDE, HIGHER):
-        turn = (bearing + math.radians(away), math.radians(pitch), math.radians(roll))
+    yaws = [bearing + math.radians(away) for away in ASIDE]
+    if short:
+        along = longest_axis(seen)
+        heading = math.atan2(along[1], along[0]) - yaw_of(reference)
+        yaws = sorted((heading, heading + math.pi), key=lambda yaw: abs(wrapped(yaw - bearing)))
+    pitches = FROM_THE_SIDE if aside else FROM_AN_END if short else FROM_ABOVE
+    for pitch, roll, yaw, higher in itertools.product(pitches, ROLLS, yaws, HIGHER):
+        turn = (yaw, math.radians(pitch), math.radians(roll))
         orientation = turned(reference, turn)
         width = grasping_width(orientation, seen)
         if width + LEAST_MARGIN > hand.quantities["maxOpening"]:
             continue
         forward = rotate(orientation, (1.0, 0.0, 0.0))
-        offset = place + (0.0, 0.0, higher) - arm.pad_shift(width) * forward - first
+        ahead = np.array([forward[0], forward[1], 0.0]) / max(float(np.hypot(forward[0], forward[1])), 1e-9)
+        offset = place + (0.0, 0.0, higher) - short * ahead - arm.pad_shift(width) * forward - first
         yield Grip(offset=triple(offset), turn=turn, width=width, forward=triple(forward))
 
 

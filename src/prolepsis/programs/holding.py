@@ -11,7 +11,7 @@ import numpy as np
 from prolepsis.errors import PlanError
 from prolepsis.programs.commands import ActionFailedError, Behaviour, HandSense, Sense, Way
 from prolepsis.programs.following import follow, go
-from prolepsis.programs.grasping import as_seen
+from prolepsis.programs.grasping import as_seen, wrapped, yaw_of
 from prolepsis.programs.profile import PEAK_SPEED, least_jerk
 from prolepsis.programs.turning import matrix
 from prolepsis.robots.turned import inverse, product, turned
@@ -92,8 +92,8 @@ def hand_places(hand: HandSense, held: Thing, spot: Spot, reference: Quaternion)
     bearing = hand.arm.bearing(spot.point)
     yaws = [bearing]
     if any(spot.along):
-        heading = math.atan2(spot.along[1], spot.along[0]) - _yaw(reference)
-        around = [_wrapped(heading + half - bearing) for half in (0.0, math.pi)]
+        heading = math.atan2(spot.along[1], spot.along[0]) - yaw_of(reference)
+        around = [wrapped(heading + half - bearing) for half in (0.0, math.pi)]
         yaws = [bearing + away for away in sorted(around, key=abs) if abs(away) <= FACING]
     for yaw in yaws:
         for pitch in PITCHES:
@@ -102,9 +102,11 @@ def hand_places(hand: HandSense, held: Thing, spot: Spot, reference: Quaternion)
 
 
 def free_place(
-    hand: Thing, held: Thing, sense: Sense, against: Thing, part: str, reference: Quaternion
+    hand: Thing, held: Thing, sense: Sense, against: Thing, part: str, reference: Quaternion, windup: float
 ) -> tuple[Triple, Triple]:
     """Return the first place and turn at which what the hand holds touches a thing and nothing else touches anything.
+
+    So it is ``windup`` [m] above as well, where the hand can get to.
 
     Raises:
         ActionFailedError: If there is none.
@@ -117,10 +119,14 @@ def free_place(
         for offset, turn in hand_places(here, seen, spot, reference):
             if here.arm is None:
                 return offset, turn
-            found = here.arm.way((offset[0], offset[1], offset[2] + CLEAR), turn, {held.name}, held=held.name)
-            if not found.problem:
+            for height in (CLEAR, windup):
+                above = (offset[0], offset[1], offset[2] + height)
+                found = here.arm.way(above, turn, {held.name}, held=held.name)
+                if found.problem:
+                    first = first or found
+                    break
+            else:
                 return offset, turn
-            first = first or found
     reason = f"{held.name} to the {part} of {against.name} by {hand.name}"
     if first is None:
         raise ActionFailedError("unreachable", f"{reason}: the hand would point backwards")
@@ -160,12 +166,3 @@ def _depth_below(thing: Thing) -> float:
         local = matrix(thing.orientation).T @ np.array([0.0, 0.0, 1.0])
         return float(1.0 / np.sqrt(((local / np.asarray(geom.size)) ** 2).sum()))
     return support(thing, np.array([0.0, 0.0, -1.0])) + float(middle(thing)[2])
-
-
-def _yaw(orientation: Quaternion) -> float:
-    w, _, _, z = orientation
-    return 2 * math.atan2(z, w)
-
-
-def _wrapped(angle: float) -> float:
-    return (angle + math.pi) % (2 * math.pi) - math.pi

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import math
 
-from prolepsis.things import Quaternion, Triple
+import numpy as np
+
+from prolepsis.engine import mujoco
+from prolepsis.things import FloatArray, Quaternion, Triple
 
 
 def product(first: Quaternion, second: Quaternion) -> Quaternion:
@@ -28,6 +31,14 @@ def turned(first: Quaternion, turn: Triple) -> Quaternion:
             step[axis] = math.sin(angle / 2)
             result = product(result, (step[0], step[1], step[2], step[3]))
     return result
+
+
+def quaternion_of(axes: FloatArray) -> Quaternion:
+    """Return the unit quaternion (w, x, y, z) of a rotation whose axes are given as columns, shape (3, 3)."""
+    found = np.zeros(4)
+    mujoco.mju_mat2Quat(found, axes.ravel())
+    w, x, y, z = found.tolist()
+    return (w, x, y, z)
 
 
 def inverse(orientation: Quaternion) -> Quaternion:

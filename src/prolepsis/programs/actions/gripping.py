@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from prolepsis.programs.action import FORCE, HAND, OBJECT, Parameter, action
-from prolepsis.programs.actions.motion import HEIGHT, open_to, stay, within_workspace
+from prolepsis.programs.actions.motion import HEIGHT, SHORT, open_to, stay, within_workspace
 from prolepsis.programs.commands import Behaviour, CloseGripper, Sense
 from prolepsis.programs.grasping import CLEARANCE, grip_as_turned
 from prolepsis.programs.nesting import nested
@@ -37,14 +37,16 @@ def close(scene: Scene, sense: Sense, *, hand: Thing, force: float) -> Behaviour
     return (yield from close_from(hand, hand.quantities["maxOpening"], force, sense))
 
 
-@action(HAND, OBJECT, FORCE, HEIGHT, check=within_workspace)
-def grasp(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, force: float, height: float) -> Behaviour:
-    """Reach for the object's middle, or a height above, unless the hand is there; close with the given force."""
+@action(HAND, OBJECT, FORCE, HEIGHT, SHORT, check=within_workspace)
+def grasp(
+    scene: Scene, sense: Sense, *, hand: Thing, object: Thing, force: float, height: float, short: float
+) -> Behaviour:
+    """Reach for the object's middle, a height above or short of it, unless the hand is there; close with a force."""
     grip = grip_as_turned(hand, object, sense, height)
     here = sense.hands[hand.name]
     way = np.subtract(grip.offset, here.offset)
     if np.abs(way).max() > CLEARANCE or here.opening < grip.width:
-        aside = {"height": height} if height else {}
+        aside = {name: value for name, value in (("height", height), ("short", short)) if value}
         sense = yield from nested("reach", scene, sense, hand=hand, object=object, **aside)
         grip = grip_as_turned(hand, object, sense, height)
     return (yield from close_from(hand, grip.width + CLEARANCE, force, sense))

@@ -37,6 +37,7 @@ OPENING_SPEED = 0.2
 SPEED = Parameter(name="speed", kind="speed", default=0.25)
 ACCELERATION = Parameter(name="acceleration", kind="acceleration", default=1.0)
 HEIGHT = Parameter(name="height", kind="length", default=0.0)
+SHORT = Parameter(name="short", kind="length", default=0.0)
 
 
 def line(displacement: Triple, acceleration: float, speed: float) -> Iterator[tuple[Triple, Triple]]:
@@ -112,11 +113,13 @@ def within_workspace(scene: Scene, *, hand: Thing, object: Thing, **_: object) -
         )
 
 
-@action(HAND, OBJECT, SPEED, HEIGHT, check=within_workspace)
-def reach(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, speed: float, height: float) -> Behaviour:
-    """Open the gripper wider than the object, if it is not, and move it round the object, or a height above."""
+@action(HAND, OBJECT, SPEED, HEIGHT, SHORT, check=within_workspace)
+def reach(
+    scene: Scene, sense: Sense, *, hand: Thing, object: Thing, speed: float, height: float, short: float
+) -> Behaviour:
+    """Open the gripper wider than the object, if it is not, and move it round that, a height above or short of it."""
     if sense.hands[hand.name].arm is not None:
-        return (yield from _reach_by_arm(hand, object, sense, speed, height, reference_of(scene, hand)))
+        return (yield from _reach_by_arm(hand, object, sense, speed, height, short, reference_of(scene, hand)))
     grip = grip_as_turned(hand, object, sense, height)
     width = min(grip.width + MARGIN, ROBOT.max_opening)
     if sense.hands[hand.name].opening < width:
@@ -133,13 +136,13 @@ def reach(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, speed: floa
 
 
 def _reach_by_arm(
-    hand: Thing, object: Thing, sense: Sense, speed: float, height: float, reference: Quaternion
+    hand: Thing, object: Thing, sense: Sense, speed: float, height: float, short: float, reference: Quaternion
 ) -> Behaviour:
     """Move round the object from the first direction from which the arm can."""
     arm = sense.hands[hand.name].arm
     assert arm is not None
     first: Way | None = None
-    for grip in grips(hand, object, sense, height, arm, reference):
+    for grip in grips(hand, object, sense, height, arm, reference, short):
         width = max(min(grip.width + MARGIN, hand.quantities["maxOpening"]), sense.hands[hand.name].opening)
         # Only the last stretch is straight: before it, the object is in the way as anything is.
         back = STANDOFF + extent_along(as_seen(object, sense), np.asarray(grip.forward)) / 2

@@ -54,8 +54,8 @@ def hit(
     scene: Scene, sense: Sense, *, hand: Thing, object: Thing, against: Thing, speed: float, part: str
 ) -> Behaviour:
     """Hit what the hand holds from above against the edge or the top of something, at a speed; draw back at once."""
-    offset, turn = free_place(hand, object, sense, against, part, reference_of(scene, hand))
     windup = max(LEAST_WINDUP, speed * speed / ACCELERATION)
+    offset, turn = free_place(hand, object, sense, against, part, reference_of(scene, hand), windup)
     above = (offset[0], offset[1], offset[2] + windup)
     sense = yield from move_held(hand, object, sense, above, turn)
     sense = yield from stay(0.2, sense)
@@ -114,7 +114,7 @@ def press(
     duration: float,
 ) -> Behaviour:
     """Press what the hand holds from above on something with a force, for a while, and draw back."""
-    offset, turn = free_place(hand, object, sense, against, part, reference_of(scene, hand))
+    offset, turn = free_place(hand, object, sense, against, part, reference_of(scene, hand), APPROACH_HEIGHT)
     above = (offset[0], offset[1], offset[2] + APPROACH_HEIGHT)
     sense = yield from move_held(hand, object, sense, above, turn)
     sense = yield from stay(0.2, sense)

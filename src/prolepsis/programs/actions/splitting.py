@@ -1,0 +1,148 @@
+"""Splitting: what is cracked is held out by one hand, taken by the other, bent open below and drawn apart."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Generator
+
+import numpy as np
+
+from prolepsis.errors import PlanError
+from prolepsis.programs.action import FORCE, HAND, OBJECT, Parameter, action
+from prolepsis.programs.actions.gripping import close_from
+from prolepsis.programs.actions.motion import MARGIN, open_to, stay, travel
+from prolepsis.programs.combining import Maker, all_together
+from prolepsis.programs.commands import ActionFailedError, Behaviour, Command, Sense, Way
+from prolepsis.programs.following import follow, go
+from prolepsis.programs.grasping import CLEARANCE, STANDOFF, as_seen
+from prolepsis.programs.holding import move_held
+from prolepsis.programs.profile import least_jerk
+from prolepsis.programs.two_hands import SHORTS, Hold, Placed, holds
+from prolepsis.robots.turned import quaternion_of, turn_of
+from prolepsis.scene.extent import extent_along, support
+from prolepsis.scene.robot_world import reference_of, robot_of_gripper
+from prolepsis.scene.scene import Scene
+from prolepsis.things import FloatArray, Quaternion, Thing, triple
+
+OPENING_TIME, PARTING_TIME = 1.0, 1.0
+"""Bending open and drawing apart take so long [s]."""
+
+_Taken = Generator[tuple[Command, ...], Sense, tuple[Placed, Sense]]
+
+OTHER = Parameter(name="other", kind="hand")
+
+
+def _two_arms(scene: Scene, *, hand: Thing, other: Thing, object: Thing, **_: object) -> None:
+    if hand.name == other.name:
+        raise PlanError(f"plan: {hand.name} cannot split {object.name} alone; name another gripper")
+    robots = [robot_of_gripper(scene, each) for each in (hand, other)]
+    if None in robots or robots[0] != robots[1]:
+        raise PlanError(f"plan: {hand.name} and {other.name} are not on two arms of one robot")
+
+
+@action(
+    HAND,
+    OTHER,
+    OBJECT,
+    FORCE,
+    Parameter(name="angle", kind="angle", default=math.radians(30.0)),
+    Parameter(name="distance", kind="length", default=0.08),
+    check=_two_arms,
+)
+def split(
+    scene: Scene, sense: Sense, *, hand: Thing, other: Thing, object: Thing, force: float, angle: float, distance: float
+) -> Behaviour:
+    """Hold out to the other hand what a hand holds by one end; bend it open below and draw the ends apart."""
+    reference = reference_of(scene, hand)
+    here = sense.hands[hand.name]
+    if here.grip == 0.0 or here.pad_force == 0.0:
+        raise ActionFailedError("not_held", f"{hand.name} does not hold {object.name}")
+    held = _within_reach(hand, other, sense, object, reference)
+    sense = yield from move_held(hand, object, sense, *held.first.seen(here, reference))
+    sense = yield from stay(0.2, sense)
+    second, sense = yield from _take(other, sense, object, held, reference, force)
+    return (
+        yield from _draw_apart(((hand, held.first), (other, second)), sense, object, held, reference, angle, distance)
+    )
+
+
+def _within_reach(hand: Thing, other: Thing, sense: Sense, object: Thing, reference: Quaternion) -> Hold:
+    """Return the first way of holding it out in which both arms can be."""
+    here, there = sense.hands[hand.name], sense.hands[other.name]
+    assert here.arm is not None and there.arm is not None
+    first: Way | None = None
+    for held in holds(here, there, as_seen(object, sense), reference):
+        found = here.arm.way(*held.first.seen(here, reference), {object.name}, held=object.name)
+        if not found.problem:
+            for second in held.second(SHORTS[-1], there.arm.pad_shift(0.0)):
+                found = there.arm.way(*second.seen(there, reference), {object.name}, 0.0)
+                # Both arms will be elsewhere than now: whether they touch is looked at then.
+                if found.problem != "unreachable":
+                    return held
+        first = first or found
+    assert first is not None
+    raise ActionFailedError(first.problem, f"{object.name} between {hand.name} and {other.name}: {first.detail}")
+
+
+def _take(other: Thing, sense: Sense, object: Thing, held: Hold, reference: Quaternion, force: float) -> _Taken:
+    """Close the other hand round the free end."""
+    there = sense.hands[other.name]
+    assert there.arm is not None
+    width = extent_along(as_seen(object, sense), held.pinch)
+    opening = min(width + MARGIN, other.quantities["maxOpening"])
+    first: Way | None = None
+    for short in SHORTS:
+        for second in held.second(short, there.arm.pad_shift(width)):
+            offset, turn = second.seen(there, reference)
+            back = Placed(place=second.place - STANDOFF * second.turn[:, 0], turn=second.turn)
+            before, _ = back.seen(there, reference)
+            found = there.arm.way(offset, turn, {object.name}, width)
+            if not found.problem:
+                found = there.arm.way(offset, turn, {object.name}, opening)
+            if not found.problem:
+                found = there.arm.way(before, turn, (), opening)
+            if not found.problem:
+                sense = yield from open_to(other, opening, sense)
+                sense = yield from go(other, sense, before, turn, ())
+                sense = yield from travel(other, sense, triple(np.subtract(offset, before)), 1.0, 0.1)
+                sense = yield from close_from(other, width + CLEARANCE, force, sense)
+                return second, sense
+            first = first or found
+    assert first is not None
+    raise ActionFailedError(first.problem, f"the free end of {object.name} by {other.name}: {first.detail}")
+
+
+def _draw_apart(
+    hands: tuple[tuple[Thing, Placed], tuple[Thing, Placed]],
+    sense: Sense,
+    object: Thing,
+    held: Hold,
+    reference: Quaternion,
+    angle: float,
+    distance: float,
+) -> Behaviour:
+    """Turn both ends about the top of the middle, so that it opens below; then move them away from each other."""
+    up = np.array([0.0, 0.0, 1.0])
+    top = held.middle + support(as_seen(object, sense), up) * up
+    opening = np.array([[share, 0.0] for share, _ in least_jerk(OPENING_TIME)])
+    parting = np.array([[1.0, share] for share, _ in least_jerk(PARTING_TIME)])
+    shares = np.concatenate([opening, parting])
+
+    def course(start: Placed, side: float) -> tuple[FloatArray, FloatArray]:
+        # What is below the axis moves to the hand's own side.
+        axis = side * np.cross(held.across, up)
+        steps = [
+            start.moved(top, axis, -angle / 2 * turned, side * apart * distance / 2 * held.across)
+            for turned, apart in shares.tolist()
+        ]
+        turns = [turn_of(reference, quaternion_of(step.turn)) for step in steps]
+        return np.array([step.place for step in steps]), np.array(turns)
+
+    def maker(hand: Thing, start: Placed, side: float) -> Maker:
+        places, turns = course(start, side)
+        here = sense.hands[hand.name]
+        first = np.asarray(here.position) - np.asarray(here.offset)
+        return lambda now: follow(hand, now, places - first, turns)
+
+    makers = [maker(hand, start, side) for (hand, start), side in zip(hands, (-1.0, 1.0), strict=True)]
+    return (yield from all_together(makers)(sense))

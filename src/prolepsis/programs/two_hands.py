@@ -1,0 +1,92 @@
+"""Where two hands take one thing by its ends: each from its own side and from above, a V."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from prolepsis.programs.commands import HandSense
+from prolepsis.programs.grasping import longest_axis, yaw_of
+from prolepsis.programs.turning import matrix
+from prolepsis.robots.turned import quaternion_of, turn_of
+from prolepsis.scene.extent import middle
+from prolepsis.things import FloatArray, Quaternion, Thing, Triple, triple
+
+AWAY = (0.0, 20.0, -20.0, 40.0, -40.0)
+"""The line through both hands is tried across the robot's front, and turned by these [degrees]."""
+LIFTED = (0.0, 0.05, -0.03)
+"""Heights over where the thing is that are tried [m]."""
+SHORTS = tuple(0.001 * k for k in range(12, 37, 2))
+"""How far from its middle the second hand's pads are, the nearest first [m]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Placed:
+    """Where a hand is, in the world."""
+
+    place: FloatArray
+    """[m], shape (3,)."""
+    turn: FloatArray
+    """Its axes as columns, shape (3, 3)."""
+
+    def seen(self, hand: HandSense, reference: Quaternion) -> tuple[Triple, Triple]:
+        """Return it as displacement from the hand's first place [m] and as yaw, pitch and roll [rad]."""
+        first = np.asarray(hand.position) - np.asarray(hand.offset)
+        return triple(self.place - first), turn_of(reference, quaternion_of(self.turn))
+
+    def moved(self, about: FloatArray, axis: FloatArray, angle: float, by: FloatArray) -> Placed:
+        """Return it turned about an axis through a point by ``angle`` [rad], then moved ``by`` [m]."""
+        half = math.sin(angle / 2)
+        x, y, z = (float(v) * half for v in axis)
+        turn = matrix((math.cos(angle / 2), x, y, z))
+        return Placed(place=about + turn @ (self.place - about) + by, turn=turn @ self.turn)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Hold:
+    """How the first hand holds a thing out to the second."""
+
+    first: Placed
+    middle: FloatArray
+    """Of the thing [m], shape (3,)."""
+    across: FloatArray
+    """Unit vector from the first hand to the second, along the thing, level, shape (3,)."""
+    pinch: FloatArray
+    """Unit vector from pad to pad, level, shape (3,)."""
+
+    def second(self, short: float, pad_shift: float) -> Iterator[Placed]:
+        """Yield places of the second hand whose pads' middle is ``short`` [m] from the thing's: a mirror image."""
+        ahead = self.first.turn[:, 0]
+        forward = ahead - 2 * float(ahead @ self.across) * self.across
+        for pinch in (self.pinch, -self.pinch):
+            turn = np.stack([forward, pinch, np.cross(forward, pinch)], axis=1)
+            yield Placed(place=self.middle + short * self.across - pad_shift * forward, turn=turn)
+
+
+def holds(hand: HandSense, other: HandSense, object: Thing, reference: Quaternion) -> Iterator[Hold]:
+    """Yield how a hand may hold out a thing that it holds, as seen now, by one end: level, across the robot's front."""
+    turn = matrix(hand.orientation)
+    centre = np.asarray(object.position) + middle(object)
+    along = longest_axis(object)
+    along = along if (centre - hand.position) @ along > 0 else -along
+    along = along - float(along @ turn[:, 1]) * turn[:, 1]
+    free_end = turn.T @ (along / np.linalg.norm(along))
+    pinched = np.array([0.0, 1.0, 0.0])
+    own = np.stack([free_end, pinched, np.cross(free_end, pinched)], axis=1)
+    arm = turn.T @ (centre - hand.position)
+    yaw = yaw_of(reference)
+    left = np.array([-math.sin(yaw), math.cos(yaw), 0.0])
+    side = 1.0 if np.subtract(other.position, hand.position) @ left > 0 else -1.0
+    for lifted in LIFTED:
+        for away in AWAY:
+            c, s = math.cos(math.radians(away)), math.sin(math.radians(away))
+            across = side * (np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]) @ left)
+            for pinch in (np.cross(across, (0.0, 0.0, 1.0)), np.cross((0.0, 0.0, 1.0), across)):
+                axes = np.stack([across, pinch, np.cross(across, pinch)], axis=1) @ own.T
+                if axes[2, 0] < 0:
+                    there = centre + (0.0, 0.0, lifted)
+                    first = Placed(place=there - axes @ arm, turn=axes)
+                    yield Hold(first=first, middle=there, across=across, pinch=pinch)
