@@ -71,6 +71,8 @@ class Scenario:
             raise ScenarioError(
                 f"{self.path}: duration must be a finite number of seconds greater than 0, not {self.duration:g}"
             )
+        if self.seed < 0:
+            raise ScenarioError(f"{self.path}: seed = {self.seed}: must not be negative")
         if not FEWEST_PARTICLES <= self.particles <= MOST_PARTICLES:
             raise ScenarioError(
                 f"{self.path}: particles = {self.particles}: allowed: {FEWEST_PARTICLES} to {MOST_PARTICLES}"
@@ -131,13 +133,14 @@ class Scenario:
         return scenario.with_settings(settings or {})
 
     def with_settings(self, settings: Mapping[str, str | float]) -> Scenario:
-        """Return the scenario with other values of parameters, of the knowledge base, or of ``particles``.
+        """Return the scenario with other values of parameters, of the knowledge base, of ``particles`` or ``seed``.
 
         Raises:
             UnknownNameError: If a setting names no parameter.
             ScenarioError: If a value has the wrong unit.
         """
-        parameters, knowledge, particles = dict(self.parameters), dict(self.knowledge), self.particles
+        parameters, knowledge = dict(self.parameters), dict(self.knowledge)
+        numbers = {"particles": self.particles, "seed": self.seed}
         for name, value in settings.items():
             if "." in name:
                 knowledge[name] = _plain(value)
@@ -145,13 +148,13 @@ class Scenario:
             match = [known for known in parameters if known == name] or [
                 known for known in parameters if known.lower() == name.lower()
             ]
-            if not match and name == "particles":
-                particles = _whole(value, f"{self.path}: particles = {value}")
+            if not match and name in numbers:
+                numbers[name] = _whole(value, f"{self.path}: {name} = {value}")
                 continue
             if len(match) != 1:
                 raise UnknownNameError.of("parameter", name, parameters, where=str(self.path))
             parameters[match[0]] = _setting(value, parameters[match[0]], f"{self.path}: {match[0]} = {value}")
-        return replace(self, parameters=parameters, knowledge=knowledge, particles=particles)
+        return replace(self, parameters=parameters, knowledge=knowledge, **numbers)
 
     def knowledge_base(self) -> KnowledgeBase:
         """Return the knowledge base of the situation, with this scenario's values.

@@ -16,6 +16,7 @@ EXAMPLE = """\
   prolepsis sweep examples/grasp_egg.toml --over Force=force1,force5,force12
   prolepsis sweep examples/grasp_egg.toml --over Force=0.1,5,60 --refine 4
   prolepsis sweep examples/grasp_egg.toml --over Force=1,5,20,45 --ask 'holds(broken(X), T)'
+  prolepsis sweep examples/pr2_split.toml --over seed=1,2,3 --ask 'holds(broken(yolk1), T)'
 Of a plan that grasps, each row tells whether the object slips, is held or is crushed, and the table ends with
 the forces between which this changes [N]; --refine narrows them down by further runs.
 """
@@ -34,7 +35,7 @@ def add_to(commands: Any) -> None:
         action="append",
         required=True,
         metavar="NAME=V1,V2,...",
-        help="values of a parameter, a knowledge value or of particles; with several --over, every combination",
+        help="values of a parameter, a knowledge value, particles or seed; with several --over, every combination",
     )
     parser.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE", help="value that is the same in all"
@@ -99,6 +100,9 @@ def report(outcomes: Outcomes) -> str:
         f"(between {each.low:.4g} and {each.high:.4g} N)"
         for each in outcomes.transitions()
     ]
+    asked = [row for row in outcomes.rows if row.answers is not None]
+    if asked:
+        shown.append(f"{sum(bool(row.answers) for row in asked)} of {len(asked)} runs have an answer")
     return "\n".join(shown)
 
 
