@@ -1,0 +1,254 @@
+"""Peeling: one hand holds out what is cracked, the other pinches its free end and draws shell off, again and again."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Generator, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from prolepsis.errors import PlanError
+from prolepsis.programs.action import FORCE, HAND, OBJECT, Parameter, action
+from prolepsis.programs.actions.gripping import close_from
+from prolepsis.programs.actions.motion import open_to, stay, travel
+from prolepsis.programs.commands import ActionFailedError, Behaviour, Command, HandTarget, Note, Sense, Way
+from prolepsis.programs.following import go
+from prolepsis.programs.grasping import CLEARANCE
+from prolepsis.programs.two_hands import Hold, Placed, holds
+from prolepsis.scene.extent import extent_along
+from prolepsis.scene.robot_world import reference_of, robot_of_gripper
+from prolepsis.scene.scene import Scene
+from prolepsis.things import FloatArray, Quaternion, Thing, triple
+
+GONE = 0.008
+"""A piece is off when it is farther from the kernel than in the whole shell by this much [m]."""
+NEAREST, BEST, FARTHEST = 0.006, 0.018, 0.022
+"""How far beyond the middle, towards the free end, it is pinched [m]: not in the way of the first hand, where the
+surface is not yet too slanted."""
+BEFORE = 0.012
+"""A piece whose middle is nearer to the first hand than the middle of the whole by more than this is not under a pad of
+the second that pinches there [m]."""
+ASIDE = math.sin(math.radians(50.0))
+"""What faces the first hand's pads more than this is under them or beside them [1]."""
+PITCHES = (23.0, 10.0, 40.0, 0.0)
+"""Pitches of the second hand that are tried [degrees]."""
+ROOM = 0.030
+"""The gripper is open this much wider than what it goes round, if it can be [m]."""
+WAY = 0.06
+"""It comes from so far away, and draws so far [m]."""
+DRAW_SPEED, APPROACH_SPEED = 0.05, 0.15
+"""[m/s]"""
+SLIPPED = 0.006
+"""When the kernel has followed so far, it would come out of the first hand: the pull is given up [m]."""
+
+OTHER = Parameter(name="other", kind="hand")
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class _Shelled:
+    """What is peeled."""
+
+    object: Thing
+    kernel: Thing
+    pieces: tuple[Thing, ...]
+
+    @property
+    def names(self) -> set[str]:
+        """What an arm would call what it touches of it."""
+        return {self.object.name, self.kernel.name, *(piece.name.split("/", 1)[0] for piece in self.pieces)}
+
+    def seen(self, sense: Sense) -> Thing:
+        """Return the whole where its kernel is now."""
+        place, turn = sense.place(self.kernel.name), sense.orientation(self.kernel.name)
+        return replace(self.object, position=place, orientation=turn)
+
+    def way_out(self, sense: Sense, piece: Thing) -> FloatArray:
+        """Return the way from the kernel's middle to a piece [m], shape (3,)."""
+        return np.subtract(sense.place(piece.name), sense.place(self.kernel.name))
+
+    def covered(self, sense: Sense) -> list[Thing]:
+        """Return the pieces that are still where they were on the kernel."""
+        return [piece for piece in self.pieces if self._is_on(sense, piece)]
+
+    def _is_on(self, sense: Sense, piece: Thing) -> bool:
+        before = float(np.linalg.norm(np.subtract(piece.position, self.kernel.position)))
+        return float(np.linalg.norm(self.way_out(sense, piece))) < before + GONE
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class _Pinch:
+    """Where the second hand pinches."""
+
+    piece: str
+    """Piece under one of its pads."""
+    at: Placed
+    width: float
+    """Of what is between the pads [m]."""
+    opening: float
+    """Of the gripper before [m]."""
+
+
+def _shelled(scene: Scene, object: Thing) -> _Shelled | None:
+    """Return an object with its kernel and the pieces of its shell, if it has such."""
+    parts = scene.parts(object.name)
+    kernels = [part for part in parts if "adhesionStrength" in part.quantities]
+    pieces = tuple(p for part in parts for p in scene.parts(part.name) if "Piece" in p.roles and "area" in p.quantities)
+    return _Shelled(object=object, kernel=kernels[0], pieces=pieces) if kernels and pieces else None
+
+
+def _can_peel(scene: Scene, *, hand: Thing, other: Thing, object: Thing, **_: object) -> None:
+    if hand.name == other.name:
+        raise PlanError(f"plan: {hand.name} cannot peel {object.name} alone; name another gripper")
+    if _shelled(scene, object) is None:
+        raise PlanError(f"plan: {object.name} cannot be peeled: it has no shell round a firm kernel")
+    robots = [robot_of_gripper(scene, each) for each in (hand, other)]
+    if None in robots or robots[0] != robots[1]:
+        raise PlanError(f"plan: {hand.name} and {other.name} are not on two arms of one robot")
+
+
+@action(HAND, OTHER, OBJECT, FORCE, Parameter(name="tries", kind="count", default=4.0), check=_can_peel)
+def peel(
+    scene: Scene, sense: Sense, *, hand: Thing, other: Thing, object: Thing, force: float, tries: float
+) -> Behaviour:
+    """Hold out to the other hand what is cracked all round; pinch its free end with a force, draw shell off, repeat."""
+    shelled = _shelled(scene, object)
+    assert shelled is not None
+    here = sense.hands[hand.name]
+    if here.grip == 0.0 or here.pad_force == 0.0:
+        raise ActionFailedError("not_held", f"{hand.name} does not hold {object.name}")
+    reference = reference_of(scene, hand)
+    held, sense = yield from _held_out(hand, other, sense, shelled, reference)
+    before = len(shelled.covered(sense))
+    tried: set[str] = set()
+    for done in range(round(tries) + 1):
+        off = before - len(shelled.covered(sense))
+        sense = yield (Note(evidence={"pieces": before, "pieces_off": off, "tries": done}),)
+        if done == round(tries) or not _is_held(hand, sense, shelled):
+            break
+        found = _pinch(other, sense, shelled, held, reference, tried)
+        if isinstance(found, Way) and not done:
+            raise ActionFailedError(found.problem, f"shell of {object.name} by {other.name}: {found.detail}")
+        if not isinstance(found, _Pinch):
+            break
+        tried.add(found.piece)
+        sense = yield from _pull(other, sense, shelled, held, found, reference, force)
+        if before - len(shelled.covered(sense)) > off:
+            tried.clear()
+    return sense
+
+
+def _is_held(hand: Thing, sense: Sense, shelled: _Shelled) -> bool:
+    here = sense.hands[hand.name]
+    away = np.subtract(sense.place(shelled.kernel.name), here.position)
+    return here.pad_force > 0.0 and float(np.linalg.norm(away)) < extent_along(shelled.object, np.array([1.0, 0, 0]))
+
+
+_HeldOut = Generator[tuple[Command, ...], Sense, tuple[Hold, Sense]]
+
+
+def _held_out(hand: Thing, other: Thing, sense: Sense, shelled: _Shelled, reference: Quaternion) -> _HeldOut:
+    """Hold it out, level, across the robot's front, where the other arm can be as well."""
+    here, there = sense.hands[hand.name], sense.hands[other.name]
+    assert here.arm is not None and there.arm is not None
+    first: Way | None = None
+    for held in holds(here, there, shelled.seen(sense), reference):
+        place = held.first.seen(here, reference)
+        found = here.arm.way(*place, shelled.names)
+        if not found.problem:
+            for second in held.second(BEST, there.arm.pad_shift(0.0)):
+                found = there.arm.way(*second.seen(there, reference), shelled.names, 0.0)
+                # Both arms will be elsewhere than now: whether they touch is looked at then.
+                if found.problem != "unreachable":
+                    sense = yield from go(hand, sense, *place, shelled.names)
+                    sense = yield from stay(0.2, sense)
+                    return held, sense
+        first = first or found
+    assert first is not None
+    raise ActionFailedError(
+        first.problem, f"{shelled.object.name} between {hand.name} and {other.name}: {first.detail}"
+    )
+
+
+def _pinch(
+    other: Thing, sense: Sense, shelled: _Shelled, held: Hold, reference: Quaternion, tried: set[str]
+) -> _Pinch | Way | None:
+    """Return the first pinch of a piece that is still on the kernel to which the arm gets; else why not to the first.
+
+    None if no piece is left that is not at the first hand's pads.
+    """
+    there = sense.hands[other.name]
+    assert there.arm is not None
+    first: Way | None = None
+    ways = {piece.name: shelled.way_out(sense, piece) for piece in shelled.covered(sense) if piece.name not in tried}
+    for name in sorted(ways, key=lambda name: abs(float(ways[name] @ held.across) - BEST)):
+        for found in _pinches(name, ways[name], other, there.arm.pad_shift, sense, shelled, held):
+            offset, turn = found.at.seen(there, reference)
+            before, _ = found.at.moved(found.at.place, held.across, 0.0, WAY * held.across).seen(there, reference)
+            way = there.arm.way(offset, turn, shelled.names, found.opening)
+            if not way.problem:
+                way = there.arm.way(before, turn, (), found.opening)
+            if not way.problem:
+                return found
+            first = first or way
+    return first
+
+
+def _pinches(
+    name: str,
+    way: FloatArray,
+    other: Thing,
+    pad_shift: Callable[[float], float],
+    sense: Sense,
+    shelled: _Shelled,
+    held: Hold,
+) -> Iterator[_Pinch]:
+    """Yield how a piece and what is opposite may be pinched."""
+    along = float(way @ held.across)
+    aside = way - along * held.across
+    aside = aside / max(float(np.linalg.norm(aside)), 1e-9)
+    if along < -BEFORE or abs(float(aside @ held.pinch)) > ASIDE:
+        return
+    along = min(max(along, NEAREST), FARTHEST)
+    seen = shelled.seen(sense)
+    width = extent_along(seen, aside)
+    opening = min(width + ROOM, other.quantities["maxOpening"])
+    up = np.array([0.0, 0.0, 1.0])
+    for pitch in map(math.radians, PITCHES):
+        ahead = -math.cos(pitch) * held.across - math.sin(pitch) * up
+        across = aside - float(aside @ ahead) * ahead
+        for side in (1.0, -1.0):
+            pinch = side * across / float(np.linalg.norm(across))
+            turn = np.stack([ahead, pinch, np.cross(ahead, pinch)], axis=1)
+            place = np.asarray(seen.position) + along * held.across - pad_shift(width) * ahead
+            yield _Pinch(piece=name, at=Placed(place=place, turn=turn), width=width, opening=opening)
+
+
+def _pull(
+    other: Thing, sense: Sense, shelled: _Shelled, held: Hold, pinch: _Pinch, reference: Quaternion, force: float
+) -> Behaviour:
+    """Pinch, draw away along the free end until the kernel follows, let go, and go back."""
+    away = triple(WAY * held.across)
+    there = sense.hands[other.name]
+    offset, turn = pinch.at.seen(there, reference)
+    sense = yield from open_to(other, pinch.opening, sense)
+    sense = yield from go(other, sense, triple(np.add(offset, away)), turn, ())
+    sense = yield from travel(other, sense, triple(np.negative(away)), 1.0, APPROACH_SPEED)
+    sense = yield from close_from(other, pinch.width + CLEARANCE, force, sense)
+    start = sense.place(shelled.kernel.name)
+    pulling = travel(other, sense, away, 1.0, DRAW_SPEED)
+    made = next(pulling)
+    while True:
+        try:
+            sense = yield made
+            if math.dist(sense.place(shelled.kernel.name), start) > SLIPPED:
+                break
+            made = pulling.send(sense)
+        except StopIteration as ended:
+            sense = ended.value
+            break
+    here = sense.hands[other.name]
+    sense = yield (HandTarget(hand=other.name, offset=here.offset, turn=here.turn),)
+    sense = yield from open_to(other, pinch.opening, sense)
+    back = triple(np.add(offset, away) - here.offset)
+    return (yield from travel(other, sense, back, 1.0, APPROACH_SPEED))
