@@ -39,6 +39,8 @@ WAY = 0.06
 """It comes from so far away, and draws so far [m]."""
 DRAW_SPEED, APPROACH_SPEED = 0.05, 0.15
 """[m/s]"""
+LOST = 0.04
+"""What is so far from where it was held out has been lost [m]."""
 SLIPPED = 0.006
 """When the kernel has followed so far, it would come out of the first hand: the pull is given up [m]."""
 
@@ -124,13 +126,13 @@ def peel(
     for done in range(round(tries) + 1):
         off = before - len(shelled.covered(sense))
         sense = yield (Note(evidence={"pieces": before, "pieces_off": off, "tries": done}),)
-        if done == round(tries) or not _is_held(hand, sense, shelled):
+        if done == round(tries) or math.dist(sense.place(shelled.kernel.name), held.middle) > LOST:
             break
         found = _pinch(other, sense, shelled, held, reference, tried)
-        if isinstance(found, Way) and not done:
-            raise ActionFailedError(found.problem, f"shell of {object.name} by {other.name}: {found.detail}")
         if not isinstance(found, _Pinch):
-            break
+            if done or not before:
+                break
+            raise _refused(found, f"shell of {object.name} by {other.name}", f"all of it is at the pads of {hand.name}")
         tried.add(found.piece)
         sense = yield from _pull(other, sense, shelled, held, found, reference, force)
         if before - len(shelled.covered(sense)) > off:
@@ -138,10 +140,11 @@ def peel(
     return sense
 
 
-def _is_held(hand: Thing, sense: Sense, shelled: _Shelled) -> bool:
-    here = sense.hands[hand.name]
-    away = np.subtract(sense.place(shelled.kernel.name), here.position)
-    return here.pad_force > 0.0 and float(np.linalg.norm(away)) < extent_along(shelled.object, np.array([1.0, 0, 0]))
+def _refused(way: Way | None, what: str, why: str) -> ActionFailedError:
+    """Return why an arm got to none of its places: the first reason, or that there was no place."""
+    if way is None:
+        return ActionFailedError("unreachable", f"{what}: {why}")
+    return ActionFailedError(way.problem, f"{what}: {way.detail}")
 
 
 _HeldOut = Generator[tuple[Command, ...], Sense, tuple[Hold, Sense]]
@@ -154,20 +157,18 @@ def _held_out(hand: Thing, other: Thing, sense: Sense, shelled: _Shelled, refere
     first: Way | None = None
     for held in holds(here, there, shelled.seen(sense), reference):
         place = held.first.seen(here, reference)
-        found = here.arm.way(*place, shelled.names)
+        found = here.arm.way(*place, shelled.names, held=shelled.object.name)
         if not found.problem:
             for second in held.second(BEST, there.arm.pad_shift(0.0)):
                 found = there.arm.way(*second.seen(there, reference), shelled.names, 0.0)
                 # Both arms will be elsewhere than now: whether they touch is looked at then.
                 if found.problem != "unreachable":
-                    sense = yield from go(hand, sense, *place, shelled.names)
+                    sense = yield from go(hand, sense, *place, shelled.names, shelled.object.name)
                     sense = yield from stay(0.2, sense)
                     return held, sense
         first = first or found
-    assert first is not None
-    raise ActionFailedError(
-        first.problem, f"{shelled.object.name} between {hand.name} and {other.name}: {first.detail}"
-    )
+    what = f"{shelled.object.name} between {hand.name} and {other.name}"
+    raise _refused(first, what, f"{hand.name} cannot hold it out from above")
 
 
 def _pinch(
