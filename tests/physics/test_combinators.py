@@ -150,6 +150,8 @@ REFUSED = [
     ("repeat_until(touching(egg1), wait(1))", PlanError, r"has 1 argument, needed: touching\(Object, Other\)"),
     ("close(hand1, 500)", PlanError, "force of close.hand1,500. is 500 N, hand1 can do 100 N at most"),
     ("hit(hand1, egg1, egg1)", PlanError, "egg1 cannot be hit against itself"),
+    ("split(hand1, hand1, egg1, 5)", PlanError, "hand1 cannot split egg1 alone; name another gripper"),
+    ("split(hand1, hand2, egg1, 5)", PlanError, "hand1 and hand2 are not on two arms of one robot"),
     ("hit(hand1, egg1, table1, 0.2, side)", PlanError, "must be one of edge, top, not side"),
     ("drive(hand1, [0, 0])", UnknownNameError, "no robot named 'hand1'"),
 ]

@@ -143,7 +143,7 @@ REFUSED = [
     (
         "grasp(hand1)",
         PlanError,
-        r"plan: grasp\(hand1\) has 1 argument, needed: grasp\(Hand, Object, Force, Height = 0 m\)",
+        r"plan: grasp\(hand1\) has 1 argument, needed: grasp\(Hand, Object, Force, Height = 0 m, Short = 0 m\)",
     ),
     ("lift(hand1, 0.1, 0.2, 0.3, 0.4)", PlanError, r"has 5 arguments, needed: lift\(Hand, Height, Speed = 0.25"),
     ("grasp(hand2, egg1, 5)", UnknownNameError, "plan: hand of .*: no gripper named 'hand2'.*known: hand1"),

@@ -9,6 +9,7 @@ import numpy as np
 from prolepsis.fluents.intervals import debounce
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event, fluent
+from prolepsis.log import Log
 from prolepsis.things import IntArray
 from prolepsis.timeline import Fact
 
@@ -30,6 +31,17 @@ def breaking(observation: Observation) -> Iterator[Fact]:
             yield observation.fact("event", "breaking", (name,), (start, end), evidence)
 
 
+def _parts(log: Log, whole: int) -> dict[str, float]:
+    """Return into how many parts a shell has fallen at the end, and the two largest as shares of its mass."""
+    pieces = [i for i, thing in enumerate(log.things) if "Piece" in thing.roles and top(log, i) == whole]
+    mass = np.array([log.things[i].mass for i in pieces])
+    if not mass.sum() > 0:
+        return {}
+    _, part = np.unique(log.carrier[-1, pieces], return_inverse=True)
+    shares = np.sort(np.bincount(part, mass))[::-1] / mass.sum()
+    return {"parts": float(len(shares)), "largest": float(shares[0]), "second": float(shares[1:2].sum())}
+
+
 @fluent("broken", "o")
 def broken(observation: Observation) -> Iterator[Fact]:
     """A bond of the thing has detached; true from then on."""
@@ -37,20 +49,23 @@ def broken(observation: Observation) -> Iterator[Fact]:
     for whole, rows in observation.of(detached_rows).items():
         stretch = int(detachments.tick[rows].min()), observation.tick_count
         evidence = {"bonds": float(len(rows)), "force": float(detachments.force[rows].max())}
+        evidence |= _parts(observation.log, whole)
         yield observation.fact("fluent", "broken", (observation.log.things[whole].name,), stretch, evidence)
 
 
 def detached_rows(observation: Observation) -> dict[int, IntArray]:
     """Return the rows of the log's detachments for each topmost whole, or stuff."""
-    things = observation.log.things
-    index = {thing.name: i for i, thing in enumerate(things)}
     found: dict[int, list[int]] = {}
     for row, detached in enumerate(observation.log.detachments.thing.tolist()):
-        thing = int(detached)
-        whole = things[thing].whole
-        # A yolk breaks for itself.
-        while whole is not None and whole in index and "Stuff" not in things[thing].roles:
-            thing = index[whole]
-            whole = things[thing].whole
-        found.setdefault(thing, []).append(row)
+        found.setdefault(top(observation.log, int(detached)), []).append(row)
     return {whole: np.array(rows, dtype=np.int64) for whole, rows in found.items()}
+
+
+def top(log: Log, thing: int) -> int:
+    """Return the topmost whole that a thing is a part of; a stuff, as a yolk, is its own."""
+    index = {each.name: i for i, each in enumerate(log.things)}
+    whole = log.things[thing].whole
+    while whole is not None and whole in index and "Stuff" not in log.things[thing].roles:
+        thing = index[whole]
+        whole = log.things[thing].whole
+    return thing
