@@ -44,8 +44,6 @@ STEADY_WAY = 3.0e-3
 """... nothing is about to touch: it is farther away than the fastest motion goes in this time, three ticks [s] ..."""
 STEADY_LOAD = 0.8
 """... and no bond bears more than this part of its strength [1]."""
-RESIDUAL = 0.3
-"""Share of the breaking force that a cracked shell bears where it is pressed in [1]."""
 
 
 @dataclass(kw_only=True, slots=True)
@@ -133,7 +131,8 @@ class Breaking(Phenomenon):
             membrane_stretch=quantities.get("shellMembraneStretch", 1.0),
         )
         self.fragments = [Fragment(body=thing.name, graph=graph, origin=np.zeros(3), calm=_calm(graph))]
-        self._residual = RESIDUAL * breaking_force
+        self._residual = quantities["crackedForceShare"] * breaking_force
+        self._most_relief = quantities["crackReliefShare"]
         self.intact = True
         self.load = 0.0
         """Greatest bond load over strength in the tick [1]; 0 while the screen shows that none can break."""
@@ -272,7 +271,15 @@ class Breaking(Phenomenon):
         self, graph: BondGraph, pressing: Pressing, shares: FloatArray, ease: Callable[[float], FloatArray]
     ) -> Cascade:
         made = cascade(
-            graph, pressing.points, pressing.forces, pressing.normal, self.weakening, self._residual, shares, ease
+            graph,
+            pressing.points,
+            pressing.forces,
+            pressing.normal,
+            self.weakening,
+            self._residual,
+            self._most_relief,
+            shares,
+            ease,
         )
         self.load = max(self.load, made.worst)
         return made

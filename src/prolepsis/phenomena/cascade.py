@@ -13,8 +13,6 @@ from prolepsis.things import FloatArray, IntArray
 TOGETHER = 0.9
 """Bonds within this fraction of the most overloaded one give way with it, which keeps a cascade short."""
 
-MOST_RELIEF = 1 / 3
-"""While it is crushed, the force falls at most to this part of what a cracked shell bears [1]; then cracks run on."""
 RELIEF_STEP = 0.9
 """It is lowered by this factor at a time [1]."""
 ALMOST = 1.001
@@ -46,6 +44,7 @@ def cascade(
     normal: FloatArray,
     weakening: float,
     cracked_bears: float,
+    most_relief: float,
     shares: FloatArray,
     ease: Callable[[float], FloatArray],
 ) -> Cascade:
@@ -58,8 +57,9 @@ def cascade(
         normal: Normal forces [N], shape (c,).
         weakening: Factor on the strength of bonds next to a broken one [1].
         cracked_bears: Force on a piece with nothing but cracks round it at which it comes loose [N].
+        most_relief: Share of that to which the force falls before cracks run on [1].
         shares: Share of each force that is really exerted [1], shape (c,).
-        ease: Returns that once something has given way, for a relief between 1 and ``MOST_RELIEF``.
+        ease: Returns that once something has given way, for a relief between 1 and ``most_relief``.
     """
     load, worst = 0.0, 0.0
     broken: list[tuple[int, int]] = []
@@ -82,8 +82,8 @@ def cascade(
             graph = graph.settled(points, shares[:, None] * forces)
             parts = (graph,)
             # What is crushed gives way before the cracks run on.
-            while relief > MOST_RELIEF and float(graph.loads(points, shares[:, None] * forces).max()) >= 1:
-                relief = max(RELIEF_STEP * relief, MOST_RELIEF)
+            while relief > most_relief and float(graph.loads(points, shares[:, None] * forces).max()) >= 1:
+                relief = max(RELIEF_STEP * relief, most_relief)
                 shares = ease(relief)
     return Cascade(parts=parts, load=load, worst=worst, changed=changed, broken=tuple(broken), shares=shares)
 
