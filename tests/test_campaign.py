@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from prolepsis.campaign import sweep
+from prolepsis.campaign import Outcomes, Row, sweep
 from prolepsis.cli import main
 from prolepsis.errors import InputError
+from prolepsis.outcome import Grasp
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
 
@@ -44,7 +46,24 @@ def test_the_command_prints_a_row_for_each_value(scenario: Path, capfd: pytest.C
         ["Time", "outcome"],
         ["0.01", "done"],
         ["no"],
+        ["0", "of", "1", "runs", "have", "an", "answer"],
     ]
+
+
+def test_the_seed_can_be_varied(scenario: Path) -> None:
+    assert [row.error for row in sweep(scenario, {"seed": [1.0, 2.0]}).rows] == [None, None]
+    for seed, message in ((1.5, "seed = 1.5: must be a whole number"), (-1.0, "seed = -1: must not be negative")):
+        with pytest.raises(InputError, match=message):
+            sweep(scenario, {"seed": [seed]})
+
+
+def test_runs_with_the_same_force_are_no_transition() -> None:
+    held = Grasp(hand="hand1", object="egg1", level=5.0, outcome="hold", slip=0.0, peak_force=5.0, bonds_broken=0)
+    rows = (
+        Row(values={"seed": 1.0}, level=5.0, grasp=held),
+        Row(values={"seed": 2.0}, level=5.0, grasp=replace(held, outcome="crush")),
+    )
+    assert not Outcomes(rows=rows).transitions()
 
 
 def test_transitions_are_narrowed_down_by_further_runs() -> None:

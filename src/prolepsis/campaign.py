@@ -78,7 +78,7 @@ class Outcomes:
         return tuple(
             Transition(below=below, above=above, low=low, high=high)
             for (low, below), (high, above) in itertools.pairwise(ranked)
-            if below.outcome != above.outcome
+            if low < high and below.outcome != above.outcome
         )
 
 
