@@ -169,6 +169,14 @@ class State:
             mujoco.mj_objectVelocity(self.model, self.data, mujoco.mjtObj.mjOBJ_XBODY, body, result, 0)
         return result[3:]
 
+    def velocity_at(self, body: str, point: FloatArray) -> FloatArray:
+        """Return the velocity of a point of a MuJoCo body in the world [m/s], shape (3,)."""
+        result = np.zeros(6)
+        number = self.model.body(body).id
+        mujoco.mj_objectVelocity(self.model, self.data, mujoco.mjtObj.mjOBJ_XBODY, number, result, 0)
+        arm = np.asarray(point - self.data.xpos[number], dtype=np.float64)
+        return result[3:] + np.cross(result[:3], arm)
+
     def normal_forces(self) -> list[tuple[int, int, int, float]]:
         """Return contact number, both bodies and normal force [N] of each active contact of the last substep."""
         data = self.data

@@ -36,6 +36,8 @@ class Touch:
     """Greatest of them [N]."""
     point: FloatArray | None = None
     """Where that is, world frame [m], shape (3,)."""
+    normal: FloatArray | None = None
+    """Unit normal of the surfaces there, shape (3,)."""
     distance: float = math.inf
     """Least distance of the surfaces [m]."""
 
@@ -45,7 +47,7 @@ class ShellDents:
 
     def __init__(self, thing: Thing, bears: float, deepest: float) -> None:
         """Look after ``thing``, which ``bears`` a force where it is cracked [N]; dents are at most ``deepest`` [m]."""
-        self._geom = f"{thing.name}/0"
+        self._thing, self._geom = thing.name, f"{thing.name}/0"
         self._bears, self._deepest = bears, deepest
         self._dents: dict[str, Dent] = {}
         self._version = -1
@@ -76,8 +78,9 @@ class ShellDents:
             del self._dents[other]
         for other, dent in self._dents.items():
             touch = touching[other]
-            before = touch.distance if math.isinf(dent.distance) else dent.distance
-            sinking, dent.distance = max(before - touch.distance, 0.0), touch.distance
+            first = math.isinf(dent.distance)
+            way = self._approach(state, other, touch) if first else dent.distance - touch.distance
+            sinking, dent.distance = max(way, 0.0), touch.distance
             if touch.force <= dent.force or dent.depth >= self._deepest:
                 continue
             # By the next substep it will have come closer by as much as in this one.
@@ -115,6 +118,13 @@ class ShellDents:
             totals[other] = totals.get(other, 0.0) + force
         return totals
 
+    def _approach(self, state: State, other: str, touch: Touch) -> float:
+        """Return by how much the shell and another body come closer within a substep [m]."""
+        if touch.point is None or touch.normal is None:
+            return 0.0
+        speeds = [state.velocity_at(name, touch.point) for name in (self._thing, other)]
+        return abs(float((speeds[1] - speeds[0]) @ touch.normal)) * float(state.model.opt.timestep)
+
     def _touching(self, state: State) -> dict[str, Touch]:
         data = state.data
         found: dict[str, Touch] = {}
@@ -130,6 +140,7 @@ class ShellDents:
             touch.distance = min(touch.distance, float(data.contact.dist[contact]))
             if force > touch.greatest:
                 touch.greatest, touch.point = force, data.contact.pos[contact].copy()
+                touch.normal = data.contact.frame[contact, :3].copy()
         return found
 
     def _other(self, state: State, contact: int) -> str:
