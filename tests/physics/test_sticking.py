@@ -20,7 +20,7 @@ from prolepsis.state import State
 
 @pytest.fixture(scope="module")
 def dropped() -> Log:
-    return run(":floor a :Floor . :egg1 a :HardBoiledEgg ; :z 0.5 .", duration=1.2)
+    return run(":floor a :Floor . :egg1 a :HardBoiledEgg ; :z 0.22 .", duration=0.9)
 
 
 def test_a_boiled_egg_s_kernel_stays_one_body_when_its_shell_cracks(dropped: Log) -> None:
