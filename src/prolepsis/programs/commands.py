@@ -115,6 +115,13 @@ class Way:
     """How far it stays away, or what is in the way."""
 
 
+def no_way(first: Way | None, what: str, otherwise: str) -> ActionFailedError:
+    """Return why ``what`` cannot be done: what stood in the first way that was looked at, or ``otherwise`` if none."""
+    if first is None:
+        return ActionFailedError("unreachable", f"{what}: {otherwise}")
+    return ActionFailedError(first.problem, f"{what}: {first.detail}")
+
+
 class Arm(Protocol):
     """The arm that carries a hand, as a program may ask it. Places and turns are those of ``HandTarget``."""
 

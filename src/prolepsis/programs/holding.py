@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from prolepsis.errors import PlanError
-from prolepsis.programs.commands import ActionFailedError, Behaviour, HandSense, Sense, Way
+from prolepsis.programs.commands import ActionFailedError, Behaviour, HandSense, Sense, Way, no_way
 from prolepsis.programs.following import follow, go
 from prolepsis.programs.grasping import as_seen, wrapped, yaw_of
 from prolepsis.programs.profile import PEAK_SPEED, least_jerk
@@ -101,6 +101,18 @@ def hand_places(hand: HandSense, held: Thing, spot: Spot, reference: Quaternion)
             yield place_of(hand, held, spot.point, turned(reference, turn)), turn
 
 
+def holding(hand: Thing, held: Thing, sense: Sense) -> HandSense:
+    """Return the sense of a hand that holds something.
+
+    Raises:
+        ActionFailedError: If it does not.
+    """
+    here = sense.hands[hand.name]
+    if here.grip == 0.0 or here.pad_force == 0.0:
+        raise ActionFailedError("not_held", f"{hand.name} does not hold {held.name}")
+    return here
+
+
 def free_place(
     hand: Thing, held: Thing, sense: Sense, against: Thing, part: str, reference: Quaternion, windup: float
 ) -> tuple[Triple, Triple]:
@@ -111,9 +123,7 @@ def free_place(
     Raises:
         ActionFailedError: If there is none.
     """
-    here, seen = sense.hands[hand.name], as_seen(held, sense)
-    if here.grip == 0.0 or here.pad_force == 0.0:
-        raise ActionFailedError("not_held", f"{hand.name} does not hold {held.name}")
+    here, seen = holding(hand, held, sense), as_seen(held, sense)
     first: Way | None = None
     for spot in sorted(spots(as_seen(against, sense), part), key=lambda each: _away(here, each)):
         for offset, turn in hand_places(here, seen, spot, reference):
@@ -128,9 +138,7 @@ def free_place(
             else:
                 return offset, turn
     reason = f"{held.name} to the {part} of {against.name} by {hand.name}"
-    if first is None:
-        raise ActionFailedError("unreachable", f"{reason}: the hand would point backwards")
-    raise ActionFailedError(first.problem, f"{reason}: {first.detail}")
+    raise no_way(first, reason, "the hand would point backwards")
 
 
 def _away(hand: HandSense, spot: Spot) -> float:

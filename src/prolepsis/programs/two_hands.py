@@ -3,18 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Collection, Generator, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from prolepsis.programs.commands import HandSense
+from prolepsis.errors import PlanError
+from prolepsis.programs.action import Parameter
+from prolepsis.programs.commands import Command, HandSense, Sense, Way, no_way
+from prolepsis.programs.following import go
 from prolepsis.programs.grasping import longest_axis, yaw_of
 from prolepsis.programs.turning import matrix
 from prolepsis.robots.turned import quaternion_of, turn_of
 from prolepsis.scene.extent import middle
+from prolepsis.scene.robot_world import robot_of_gripper
+from prolepsis.scene.scene import Scene
 from prolepsis.things import FloatArray, Quaternion, Thing, Triple, triple
 
+OTHER = Parameter(name="other", kind="hand")
+"""The second hand."""
 AWAY = (0.0, 20.0, -20.0, 40.0, -40.0)
 """The line through both hands is tried across the robot's front, and turned by these [degrees]."""
 LIFTED = (0.0, 0.05, -0.03)
@@ -90,3 +97,54 @@ def holds(hand: HandSense, other: HandSense, object: Thing, reference: Quaternio
                     there = centre + (0.0, 0.0, lifted)
                     first = Placed(place=there - axes @ arm, turn=axes)
                     yield Hold(first=first, middle=there, across=across, pinch=pinch)
+
+
+def check_two_arms(scene: Scene, doing: str, hand: Thing, other: Thing, object: Thing) -> None:
+    """Refuse two hands that are not on two arms of one robot.
+
+    Raises:
+        PlanError: If they are not; it says that what is ``doing``, such as "split", needs them.
+    """
+    if hand.name == other.name:
+        raise PlanError(f"plan: {hand.name} cannot {doing} {object.name} alone; name another gripper")
+    robots = [robot_of_gripper(scene, each) for each in (hand, other)]
+    if None in robots or robots[0] != robots[1]:
+        raise PlanError(f"plan: {hand.name} and {other.name} are not on two arms of one robot")
+
+
+HeldOut = Generator[tuple[Command, ...], Sense, tuple[Hold, Sense]]
+
+
+def hold_out(
+    hand: Thing, other: Thing, sense: Sense, seen: Thing, touching: Collection[str], short: float, reference: Quaternion
+) -> HeldOut:
+    """Hold a thing, as seen now, out across the robot's front, where both arms can be; return how it is held.
+
+    Args:
+        hand: The hand that holds it.
+        other: The hand that will take it.
+        sense: What is sensed now.
+        seen: The thing.
+        touching: What an arm would call what it touches of it.
+        short: How far from its middle the other hand's pads will be at least [m].
+        reference: The first orientation of the hand.
+
+    Raises:
+        ActionFailedError: If there is no such place.
+    """
+    here, there = sense.hands[hand.name], sense.hands[other.name]
+    assert here.arm is not None and there.arm is not None
+    first: Way | None = None
+    for held in holds(here, there, seen, reference):
+        place = held.first.seen(here, reference)
+        found = here.arm.way(*place, touching, held=seen.name)
+        if not found.problem:
+            for second in held.second(short, there.arm.pad_shift(0.0)):
+                found = there.arm.way(*second.seen(there, reference), touching, 0.0)
+                # Both arms will be elsewhere than now: whether they touch is looked at then.
+                if found.problem != "unreachable":
+                    sense = yield from go(hand, sense, *place, touching, seen.name)
+                    return held, sense
+        first = first or found
+    what = f"{seen.name} between {hand.name} and {other.name}"
+    raise no_way(first, what, f"{hand.name} cannot hold it out from above")

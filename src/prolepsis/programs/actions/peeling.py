@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,12 +12,13 @@ from prolepsis.errors import PlanError
 from prolepsis.programs.action import FORCE, HAND, OBJECT, Parameter, action
 from prolepsis.programs.actions.gripping import close_from
 from prolepsis.programs.actions.motion import open_to, stay, travel
-from prolepsis.programs.commands import ActionFailedError, Behaviour, Command, HandTarget, Note, Sense, Way
+from prolepsis.programs.commands import Behaviour, HandTarget, Note, Sense, Way, no_way
 from prolepsis.programs.following import go
 from prolepsis.programs.grasping import CLEARANCE
-from prolepsis.programs.two_hands import Hold, Placed, holds
+from prolepsis.programs.holding import holding
+from prolepsis.programs.two_hands import OTHER, Hold, Placed, check_two_arms, hold_out
 from prolepsis.scene.extent import extent_along
-from prolepsis.scene.robot_world import reference_of, robot_of_gripper
+from prolepsis.scene.robot_world import reference_of
 from prolepsis.scene.scene import Scene
 from prolepsis.things import FloatArray, Quaternion, Thing, triple
 
@@ -43,8 +44,6 @@ LOST = 0.04
 """What is so far from where it was held out has been lost [m]."""
 SLIPPED = 0.006
 """When the kernel has followed so far, it would come out of the first hand: the pull is given up [m]."""
-
-OTHER = Parameter(name="other", kind="hand")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -100,13 +99,9 @@ def _shelled(scene: Scene, object: Thing) -> _Shelled | None:
 
 
 def _can_peel(scene: Scene, *, hand: Thing, other: Thing, object: Thing, **_: object) -> None:
-    if hand.name == other.name:
-        raise PlanError(f"plan: {hand.name} cannot peel {object.name} alone; name another gripper")
+    check_two_arms(scene, "peel", hand, other, object)
     if _shelled(scene, object) is None:
         raise PlanError(f"plan: {object.name} cannot be peeled: it has no shell round a firm kernel")
-    robots = [robot_of_gripper(scene, each) for each in (hand, other)]
-    if None in robots or robots[0] != robots[1]:
-        raise PlanError(f"plan: {hand.name} and {other.name} are not on two arms of one robot")
 
 
 @action(HAND, OTHER, OBJECT, FORCE, Parameter(name="tries", kind="count", default=4.0), check=_can_peel)
@@ -116,11 +111,10 @@ def peel(
     """Hold out to the other hand what is cracked all round; pinch its free end with a force, draw shell off, repeat."""
     shelled = _shelled(scene, object)
     assert shelled is not None
-    here = sense.hands[hand.name]
-    if here.grip == 0.0 or here.pad_force == 0.0:
-        raise ActionFailedError("not_held", f"{hand.name} does not hold {object.name}")
+    holding(hand, object, sense)
     reference = reference_of(scene, hand)
-    held, sense = yield from _held_out(hand, other, sense, shelled, reference)
+    held, sense = yield from hold_out(hand, other, sense, shelled.seen(sense), shelled.names, BEST, reference)
+    sense = yield from stay(0.2, sense)
     before = len(shelled.covered(sense))
     tried: set[str] = set()
     for done in range(round(tries) + 1):
@@ -132,43 +126,12 @@ def peel(
         if not isinstance(found, _Pinch):
             if done or not before:
                 break
-            raise _refused(found, f"shell of {object.name} by {other.name}", f"all of it is at the pads of {hand.name}")
+            raise no_way(found, f"shell of {object.name} by {other.name}", f"all of it is at the pads of {hand.name}")
         tried.add(found.piece)
         sense = yield from _pull(other, sense, shelled, held, found, reference, force)
         if before - len(shelled.covered(sense)) > off:
             tried.clear()
     return sense
-
-
-def _refused(way: Way | None, what: str, why: str) -> ActionFailedError:
-    """Return why an arm got to none of its places: the first reason, or that there was no place."""
-    if way is None:
-        return ActionFailedError("unreachable", f"{what}: {why}")
-    return ActionFailedError(way.problem, f"{what}: {way.detail}")
-
-
-_HeldOut = Generator[tuple[Command, ...], Sense, tuple[Hold, Sense]]
-
-
-def _held_out(hand: Thing, other: Thing, sense: Sense, shelled: _Shelled, reference: Quaternion) -> _HeldOut:
-    """Hold it out, level, across the robot's front, where the other arm can be as well."""
-    here, there = sense.hands[hand.name], sense.hands[other.name]
-    assert here.arm is not None and there.arm is not None
-    first: Way | None = None
-    for held in holds(here, there, shelled.seen(sense), reference):
-        place = held.first.seen(here, reference)
-        found = here.arm.way(*place, shelled.names, held=shelled.object.name)
-        if not found.problem:
-            for second in held.second(BEST, there.arm.pad_shift(0.0)):
-                found = there.arm.way(*second.seen(there, reference), shelled.names, 0.0)
-                # Both arms will be elsewhere than now: whether they touch is looked at then.
-                if found.problem != "unreachable":
-                    sense = yield from go(hand, sense, *place, shelled.names, shelled.object.name)
-                    sense = yield from stay(0.2, sense)
-                    return held, sense
-        first = first or found
-    what = f"{shelled.object.name} between {hand.name} and {other.name}"
-    raise _refused(first, what, f"{hand.name} cannot hold it out from above")
 
 
 def _pinch(

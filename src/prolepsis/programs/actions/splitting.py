@@ -7,20 +7,19 @@ from collections.abc import Generator
 
 import numpy as np
 
-from prolepsis.errors import PlanError
 from prolepsis.programs.action import FORCE, HAND, OBJECT, Parameter, action
 from prolepsis.programs.actions.gripping import close_from
 from prolepsis.programs.actions.motion import MARGIN, open_to, stay, travel
 from prolepsis.programs.combining import Maker, all_together
-from prolepsis.programs.commands import ActionFailedError, Behaviour, Command, Sense, Way
+from prolepsis.programs.commands import Behaviour, Command, Sense, Way, no_way
 from prolepsis.programs.following import follow, go
 from prolepsis.programs.grasping import CLEARANCE, STANDOFF, as_seen
-from prolepsis.programs.holding import move_held
+from prolepsis.programs.holding import holding
 from prolepsis.programs.profile import least_jerk
-from prolepsis.programs.two_hands import SHORTS, Hold, Placed, holds
+from prolepsis.programs.two_hands import OTHER, SHORTS, Hold, Placed, check_two_arms, hold_out
 from prolepsis.robots.turned import quaternion_of, turn_of
 from prolepsis.scene.extent import extent_along, support
-from prolepsis.scene.robot_world import reference_of, robot_of_gripper
+from prolepsis.scene.robot_world import reference_of
 from prolepsis.scene.scene import Scene
 from prolepsis.things import FloatArray, Quaternion, Thing, triple
 
@@ -29,15 +28,9 @@ OPENING_TIME, PARTING_TIME = 1.0, 1.0
 
 _Taken = Generator[tuple[Command, ...], Sense, tuple[Placed, Sense]]
 
-OTHER = Parameter(name="other", kind="hand")
 
-
-def _two_arms(scene: Scene, *, hand: Thing, other: Thing, object: Thing, **_: object) -> None:
-    if hand.name == other.name:
-        raise PlanError(f"plan: {hand.name} cannot split {object.name} alone; name another gripper")
-    robots = [robot_of_gripper(scene, each) for each in (hand, other)]
-    if None in robots or robots[0] != robots[1]:
-        raise PlanError(f"plan: {hand.name} and {other.name} are not on two arms of one robot")
+def _can_split(scene: Scene, *, hand: Thing, other: Thing, object: Thing, **_: object) -> None:
+    check_two_arms(scene, "split", hand, other, object)
 
 
 @action(
@@ -47,41 +40,21 @@ def _two_arms(scene: Scene, *, hand: Thing, other: Thing, object: Thing, **_: ob
     FORCE,
     Parameter(name="angle", kind="angle", default=math.radians(30.0)),
     Parameter(name="distance", kind="length", default=0.08),
-    check=_two_arms,
+    check=_can_split,
 )
 def split(
     scene: Scene, sense: Sense, *, hand: Thing, other: Thing, object: Thing, force: float, angle: float, distance: float
 ) -> Behaviour:
     """Hold out to the other hand what a hand holds by one end; bend it open below and draw the ends apart."""
     reference = reference_of(scene, hand)
-    here = sense.hands[hand.name]
-    if here.grip == 0.0 or here.pad_force == 0.0:
-        raise ActionFailedError("not_held", f"{hand.name} does not hold {object.name}")
-    held = _within_reach(hand, other, sense, object, reference)
-    sense = yield from move_held(hand, object, sense, *held.first.seen(here, reference))
+    holding(hand, object, sense)
+    seen = as_seen(object, sense)
+    held, sense = yield from hold_out(hand, other, sense, seen, {object.name}, SHORTS[-1], reference)
     sense = yield from stay(0.2, sense)
     second, sense = yield from _take(other, sense, object, held, reference, force)
     return (
         yield from _draw_apart(((hand, held.first), (other, second)), sense, object, held, reference, angle, distance)
     )
-
-
-def _within_reach(hand: Thing, other: Thing, sense: Sense, object: Thing, reference: Quaternion) -> Hold:
-    """Return the first way of holding it out in which both arms can be."""
-    here, there = sense.hands[hand.name], sense.hands[other.name]
-    assert here.arm is not None and there.arm is not None
-    first: Way | None = None
-    for held in holds(here, there, as_seen(object, sense), reference):
-        found = here.arm.way(*held.first.seen(here, reference), {object.name}, held=object.name)
-        if not found.problem:
-            for second in held.second(SHORTS[-1], there.arm.pad_shift(0.0)):
-                found = there.arm.way(*second.seen(there, reference), {object.name}, 0.0)
-                # Both arms will be elsewhere than now: whether they touch is looked at then.
-                if found.problem != "unreachable":
-                    return held
-        first = first or found
-    assert first is not None
-    raise ActionFailedError(first.problem, f"{object.name} between {hand.name} and {other.name}: {first.detail}")
 
 
 def _take(other: Thing, sense: Sense, object: Thing, held: Hold, reference: Quaternion, force: float) -> _Taken:
@@ -108,8 +81,7 @@ def _take(other: Thing, sense: Sense, object: Thing, held: Hold, reference: Quat
                 sense = yield from close_from(other, width + CLEARANCE, force, sense)
                 return second, sense
             first = first or found
-    assert first is not None
-    raise ActionFailedError(first.problem, f"the free end of {object.name} by {other.name}: {first.detail}")
+    raise no_way(first, f"the free end of {object.name} by {other.name}", "there is none")
 
 
 def _draw_apart(
