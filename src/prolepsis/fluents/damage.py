@@ -9,7 +9,6 @@ import numpy as np
 from prolepsis.fluents.intervals import debounce
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event, fluent
-from prolepsis.log import Log
 from prolepsis.things import IntArray
 from prolepsis.timeline import Fact
 
@@ -31,9 +30,10 @@ def breaking(observation: Observation) -> Iterator[Fact]:
             yield observation.fact("event", "breaking", (name,), (start, end), evidence)
 
 
-def _parts(log: Log, whole: int) -> dict[str, float]:
+def _parts(observation: Observation, whole: int) -> dict[str, float]:
     """Return into how many parts a shell has fallen at the end, and the two largest as shares of its mass."""
-    pieces = [i for i, thing in enumerate(log.things) if "Piece" in thing.roles and top(log, i) == whole]
+    log, tops = observation.log, observation.of(_tops)
+    pieces = [i for i, thing in enumerate(log.things) if "Piece" in thing.roles and tops[i] == whole]
     mass = np.array([log.things[i].mass for i in pieces])
     if not mass.sum() > 0:
         return {}
@@ -49,23 +49,28 @@ def broken(observation: Observation) -> Iterator[Fact]:
     for whole, rows in observation.of(detached_rows).items():
         stretch = int(detachments.tick[rows].min()), observation.tick_count
         evidence = {"bonds": float(len(rows)), "force": float(detachments.force[rows].max())}
-        evidence |= _parts(observation.log, whole)
+        evidence |= _parts(observation, whole)
         yield observation.fact("fluent", "broken", (observation.log.things[whole].name,), stretch, evidence)
 
 
 def detached_rows(observation: Observation) -> dict[int, IntArray]:
     """Return the rows of the log's detachments for each topmost whole, or stuff."""
+    tops = observation.of(_tops)
     found: dict[int, list[int]] = {}
     for row, detached in enumerate(observation.log.detachments.thing.tolist()):
-        found.setdefault(top(observation.log, int(detached)), []).append(row)
+        found.setdefault(tops[int(detached)], []).append(row)
     return {whole: np.array(rows, dtype=np.int64) for whole, rows in found.items()}
 
 
-def top(log: Log, thing: int) -> int:
-    """Return the topmost whole that a thing is a part of; a stuff, as a yolk, is its own."""
-    index = {each.name: i for i, each in enumerate(log.things)}
-    whole = log.things[thing].whole
-    while whole is not None and whole in index and "Stuff" not in log.things[thing].roles:
-        thing = index[whole]
-        whole = log.things[thing].whole
-    return thing
+def _tops(observation: Observation) -> list[int]:
+    """Return the topmost whole that each thing is a part of; a stuff, as a yolk, is its own."""
+    things = observation.log.things
+    index = {each.name: i for i, each in enumerate(things)}
+
+    def top(thing: int) -> int:
+        whole = things[thing].whole
+        if whole is None or whole not in index or "Stuff" in things[thing].roles:
+            return thing
+        return top(index[whole])
+
+    return [top(i) for i in range(len(things))]

@@ -99,9 +99,9 @@ def _shelled(scene: Scene, object: Thing) -> _Shelled | None:
 
 
 def _can_peel(scene: Scene, *, hand: Thing, other: Thing, object: Thing, **_: object) -> None:
-    check_two_arms(scene, "peel", hand, other, object)
     if _shelled(scene, object) is None:
         raise PlanError(f"plan: {object.name} cannot be peeled: it has no shell round a firm kernel")
+    check_two_arms(scene, "peel", hand, other, object)
 
 
 @action(HAND, OTHER, OBJECT, FORCE, Parameter(name="tries", kind="count", default=4.0), check=_can_peel)
