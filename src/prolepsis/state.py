@@ -163,19 +163,19 @@ class State:
         """Return the velocity of a thing's carrier [m/s], shape (3,); zeros if it has none."""
         scene = self.world.scene
         carrier = int(self.carrier[scene.index(name)])
-        result = np.zeros(6)
-        if carrier >= 0:
-            body = self.model.body(scene.things[carrier].name).id
-            mujoco.mj_objectVelocity(self.model, self.data, mujoco.mjtObj.mjOBJ_XBODY, body, result, 0)
-        return result[3:]
+        return self._twist(scene.things[carrier].name)[3:] if carrier >= 0 else np.zeros(3)
 
     def velocity_at(self, body: str, point: FloatArray) -> FloatArray:
         """Return the velocity of a point of a MuJoCo body in the world [m/s], shape (3,)."""
-        result = np.zeros(6)
+        twist, arm = self._twist(body), np.asarray(point - self.data.body(body).xpos, dtype=np.float64)
+        return twist[3:] + np.cross(twist[:3], arm)
+
+    def _twist(self, body: str) -> FloatArray:
+        """Return angular [rad/s] and linear velocity [m/s] of a MuJoCo body's frame, world axes, shape (6,)."""
+        twist = np.zeros(6)
         number = self.model.body(body).id
-        mujoco.mj_objectVelocity(self.model, self.data, mujoco.mjtObj.mjOBJ_XBODY, number, result, 0)
-        arm = np.asarray(point - self.data.xpos[number], dtype=np.float64)
-        return result[3:] + np.cross(result[:3], arm)
+        mujoco.mj_objectVelocity(self.model, self.data, mujoco.mjtObj.mjOBJ_XBODY, number, twist, 0)
+        return twist
 
     def normal_forces(self) -> list[tuple[int, int, int, float]]:
         """Return contact number, both bodies and normal force [N] of each active contact of the last substep."""
@@ -248,10 +248,8 @@ class State:
         things = self.world.scene.things
         old = self.data.body(body_name)
         origin, turn = old.xpos.copy(), old.xquat.copy()
-        velocity = np.zeros(6)
-        identifier = self.model.body(body_name).id
-        mujoco.mj_objectVelocity(self.model, self.data, mujoco.mjtObj.mjOBJ_XBODY, identifier, velocity, 0)
-        old_thing = int(self.body_thing[identifier])
+        velocity = self._twist(body_name)
+        old_thing = int(self.body_thing[self.model.body(body_name).id])
         groups = fragments
         poses = {i: compose_pose(np.array([*origin, *turn]), self.offsets[i]) for group in groups for i in group}
         for pair in list(self.spec.pairs):

@@ -131,17 +131,6 @@ class BondGraph:
             graph = replace(graph, opened=opened).assembled()
         return graph
 
-    def stored(self, points: FloatArray, forces: FloatArray) -> float:
-        """Return twice the elastic energy that contact forces store in the bonds [J]: forces times their ways.
-
-        Args:
-            points: Points of attack in the common frame [m], shape (c, 3).
-            forces: Forces in the same frame [N], shape (c, 3).
-        """
-        wrench = np.einsum("cij,cj->i", self.wrenches_per_force(points), forces)
-        components = self.response @ wrench
-        return float(components @ (components / _stiffness(self)))
-
     def stresses(self, components: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the greatest tensile membrane stress and the bending stress of each bond [Pa], each (..., m).
 

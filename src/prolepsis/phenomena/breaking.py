@@ -14,14 +14,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from prolepsis.phenomena.bond_graph import BondGraph
-from prolepsis.phenomena.cascade import Cascade, cascade
+from prolepsis.phenomena.cascade import Cascade, Cracking, Pressing, cascade
 from prolepsis.phenomena.phenomenon import Detachment, Draw, Phenomenon
 from prolepsis.phenomena.shell_calibration import calibrated_graph
 from prolepsis.phenomena.shell_contact import ShellContact
 from prolepsis.phenomena.shell_dents import ShellDents
 from prolepsis.scene.world import MAX_STEP
 from prolepsis.state import State
-from prolepsis.things import FloatArray, IntArray, Thing
+from prolepsis.things import FloatArray, Thing
 
 CONTACT_STEP = 2.5e-4
 """Substep [s] while something is near an intact shell: an egg's impact lasts some 1.5 ms, so six substeps."""
@@ -81,20 +81,6 @@ class Fragment:
         return SLIDING * self.load + float(np.abs(rows - self.rows).sum()) / self.calm < 1
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Pressing:
-    """What presses on a fragment; c contacts."""
-
-    numbers: IntArray
-    """Their numbers, shape (c,)."""
-    points: FloatArray
-    """In the shell's frame [m], shape (c, 3)."""
-    forces: FloatArray
-    """On the fragment, in the same frame [N], shape (c, 3)."""
-    normal: FloatArray
-    """Normal forces [N], shape (c,)."""
-
-
 class Breaking(Phenomenon):
     """The controller of one fragile thing."""
 
@@ -117,7 +103,11 @@ class Breaking(Phenomenon):
         self.kernels = [names[part.name] for part in state.world.scene.parts(thing.name) if "Piece" in part.roles]
         a, b, c = thing.shape.geoms[0].size
         quantities = shell.quantities
-        self.weakening = quantities["crackTipWeakening"]
+        self._cracking = Cracking(
+            weakening=quantities["crackTipWeakening"],
+            bears=quantities["crackedForceShare"] * breaking_force,
+            most_relief=quantities["crackReliefShare"],
+        )
         graph = calibrated_graph(
             (a, b, c),
             len(self.pieces),
@@ -131,8 +121,6 @@ class Breaking(Phenomenon):
             membrane_stretch=quantities.get("shellMembraneStretch", 1.0),
         )
         self.fragments = [Fragment(body=thing.name, graph=graph, origin=np.zeros(3), calm=_calm(graph))]
-        self._residual = quantities["crackedForceShare"] * breaking_force
-        self._most_relief = quantities["crackReliefShare"]
         self.intact = True
         self.load = 0.0
         """Greatest bond load over strength in the tick [1]; 0 while the screen shows that none can break."""
@@ -148,7 +136,7 @@ class Breaking(Phenomenon):
         self._version = -1
         self._watched: dict[int, Fragment] = {}
         self._contact = ShellContact(state, thing, quantities["plateStiffness"], quantities["poleStiffnessRatio"])
-        self._dents = ShellDents(thing, self._residual, quantities.get("shellMembraneStretch", 0.0))
+        self._dents = ShellDents(thing, self._cracking.bears, quantities.get("shellMembraneStretch", 0.0))
         self._contact.update(state, None)
         stiffest = 2 * quantities["plateStiffness"] * math.sqrt(quantities["poleStiffnessRatio"])
         self._contact_step = min(CONTACT_STEP, CONTACT_PHASE * math.sqrt(thing.mass / stiffest))
@@ -270,17 +258,7 @@ class Breaking(Phenomenon):
     def _cascade(
         self, graph: BondGraph, pressing: Pressing, shares: FloatArray, ease: Callable[[float], FloatArray]
     ) -> Cascade:
-        made = cascade(
-            graph,
-            pressing.points,
-            pressing.forces,
-            pressing.normal,
-            self.weakening,
-            self._residual,
-            self._most_relief,
-            shares,
-            ease,
-        )
+        made = cascade(graph, pressing, self._cracking, shares, ease)
         self.load = max(self.load, made.worst)
         return made
 
@@ -294,7 +272,7 @@ class Breaking(Phenomenon):
         places = (np.array(points) - body.xpos) @ body.xmat.reshape(3, 3) + fragment.origin
         pieces = np.linalg.norm(graph.centres - places[:, None], axis=2).argmin(axis=1)
         cracking = graph.round_pieces(pieces) & ~graph.cracked
-        cracked = graph.after_breaking(cracking, self.weakening)
+        cracked = graph.after_breaking(cracking, self._cracking.weakening)
         parts = cracked.without(cracked.round_pieces(pieces)).fragments()
         rest = max(parts, key=lambda part: len(part.nodes))
         pressing = self._pressing(state, body.id, fragment)
