@@ -79,6 +79,8 @@ class State:
     _bodies_version: int = -1
     _forces: list[tuple[int, int, int, float]] = field(default_factory=list[tuple[int, int, int, float]])
     _forces_at: tuple[int, float] = (-1, 0.0)
+    _pairs: list[list[int]] = field(default_factory=list[list[int]])
+    _pairs_at: tuple[int, float] = (-1, 0.0)
 
     @classmethod
     def of(cls, world: World) -> State:
@@ -188,6 +190,13 @@ class State:
             self._forces = self._listed_forces()
         return self._forces
 
+    def touching(self) -> list[list[int]]:
+        """Return both geoms of each contact of the last substep, active or not."""
+        if self._pairs_at != (self.version, self.data.time):
+            self._pairs_at = (self.version, self.data.time)
+            self._pairs = self.data.contact.geom.tolist()
+        return self._pairs
+
     def _listed_forces(self) -> list[tuple[int, int, int, float]]:
         data, contact = self.data, self.data.contact
         if data.ncon > FEW_CONTACTS:
@@ -203,7 +212,7 @@ class State:
         body, force = self._body_of_geom, data.efc_force
         return [
             (k, body[a], body[b], float(force[row]))
-            for k, ((a, b), row) in enumerate(zip(contact.geom.tolist(), contact.efc_address.tolist(), strict=True))
+            for k, ((a, b), row) in enumerate(zip(self.touching(), contact.efc_address.tolist(), strict=True))
             if row >= 0
         ]
 

@@ -51,10 +51,9 @@ class Opening(Phenomenon):
             if self._version != state.version:
                 self._version = state.version
                 joint = state.model.joint(self._name)
-                self._place, self._speed = int(joint.qposadr[0]), int(joint.dofadr[0])
-            data = state.data
-            self._pose = data.qpos[self._place : self._place + 7].copy()
-            self._motion = data.qvel[self._speed : self._speed + 6].copy()
+                place, speed = int(joint.qposadr[0]), int(joint.dofadr[0])
+                self._now = state.data.qpos[place : place + 7], state.data.qvel[speed : speed + 6]
+            self._pose, self._motion = self._now[0].copy(), self._now[1].copy()
             if self._ticks % PERIOD == 0:
                 particles.position[self._inside] = self._pose[:3] + self._places @ matrix(self._pose[3:]).T
             return

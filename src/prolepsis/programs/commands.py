@@ -271,4 +271,7 @@ actions begin or end it yields apart: this takes no time, and it receives what i
 
 def is_instant(commands: tuple[Command, ...]) -> bool:
     """Return whether commands take no time: they only say that actions begin or end."""
-    return bool(commands) and all(isinstance(command, Begin | End) for command in commands)
+    for command in commands:
+        if not isinstance(command, (Begin, End)):
+            return False
+    return bool(commands)

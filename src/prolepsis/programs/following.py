@@ -68,9 +68,10 @@ def go(
     way = arm.way(offset, turn, ignoring, held=held)
     _refuse(hand, way)
     for start, end in zip(way.joints[:-1], way.joints[1:], strict=True):
-        duration = least_time(np.abs(end - start), arm.speeds, arm.accelerations)
+        step = end - start
+        duration = least_time(np.abs(step), arm.speeds, arm.accelerations)
         for share, rate in least_jerk(duration):
-            sense = yield (_target(hand, start + share * (end - start), rate * (end - start), offset, turn),)
+            sense = yield (_target(hand, start + share * step, rate * step, offset, turn),)
             _refuse_bump(hand, sense)
     return sense
 
@@ -95,8 +96,8 @@ def _stretch(course: Callable[..., FloatArray], duration: float, arm: Arm) -> fl
 def _target(hand: Thing, joints: FloatArray, rates: FloatArray, offset: object, turn: object) -> ArmTarget:
     return ArmTarget(
         hand=hand.name,
-        joints=tuple(map(float, joints)),
-        speeds=tuple(map(float, rates)),
+        joints=tuple(joints.tolist()),
+        speeds=tuple(rates.tolist()),
         offset=triple(offset),
         turn=triple(turn),
     )

@@ -69,6 +69,7 @@ class ArmHand:
         self._first = triple(first[:3])
         self._offset: Triple = (0.0, 0.0, 0.0)
         self._turn: Triple = turn_of(reference, quaternion(first[3:]))
+        self._turned = (self._turn, turned(reference, self._turn))
         self.ways = ArmWays(self._kinematics, self._arm, gap, self._first, reference, mount, palm)
         self._stiffness = float(1.0 / np.linalg.eigvalsh(self._compliance())[-1])
         self.bind(state)
@@ -172,7 +173,7 @@ class ArmHand:
         """Return what the hand knows of itself."""
         return HandSense(
             position=triple(self._data.site_xpos[self._tool]),
-            orientation=turned(self._reference, self._turn),
+            orientation=self._orientation(),
             offset=self._offset,
             turn=self._turn,
             opening=self.gripper.opening,
@@ -186,6 +187,12 @@ class ArmHand:
             bump=self._bump,
             arm=self.ways,
         )
+
+    def _orientation(self) -> Quaternion:
+        # Most programs do not turn the hand: it is kept.
+        if self._turned[0] != self._turn:
+            self._turned = (self._turn, turned(self._reference, self._turn))
+        return self._turned[1]
 
     def _velocity(self) -> Triple:
         result = np.zeros(6)

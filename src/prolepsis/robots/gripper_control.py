@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from prolepsis.programs.commands import CloseGripper, Command, OpenGripper
 from prolepsis.robots.gap import Gap
 from prolepsis.state import State
@@ -27,6 +25,8 @@ STALL_SPEED = 0.1
 """Part of the guarded speed below which fingers hardly move [1]."""
 START_TIME = 0.04
 """Fingers need this long to get going [s]; only then does standing still mean contact."""
+RESTING = 4
+"""Ticks between two settings of a servo that only keeps its gap."""
 WIDTH_TOLERANCE = 1.0e-3
 """Gap error at which an opening has ended [m]."""
 
@@ -84,6 +84,7 @@ class GripperControl:
         self._motor = int(model.actuator(self._drive.motor).id)
         self._tendon = int(model.tendon(self._drive.tendon).id)
         self._pads = [int(model.body(pad).id) for pad in self._drive.pads]
+        self._resting = -1
         self._set_gains(*self._gains)
 
     def _set_gains(self, stiffness: float, damping: float) -> None:
@@ -120,7 +121,10 @@ class GripperControl:
         """Set the motor for the coming tick of ``dt`` [s]."""
         if isinstance(self._goal, CloseGripper):
             self._close(self._goal, dt)
-        else:
+            return
+        keeps = self._goal is None or (self.motion == 0 and self._width == self._goal.width)
+        self._resting = self._resting + 1 if keeps else 0
+        if self._resting % RESTING == 0:
             self._move(self._goal, dt)
 
     def _close(self, goal: CloseGripper, dt: float) -> None:
@@ -159,12 +163,12 @@ class GripperControl:
 
     def _approach(self, width: float, speed: float, dt: float) -> None:
         """Move the pads towards a gap of ``width`` [m] at ``speed`` [m/s]."""
-        self._width += float(np.clip(width - self._width, -speed * dt, speed * dt))
+        self._width += min(max(width - self._width, -speed * dt), speed * dt)
         length = self.length
-        lever = self._drive.gap.lever(length)
+        opening, lever = self._drive.gap.opening(length), self._drive.gap.lever(length)
         stiffness = self._drive.stiffness * lever * lever
         self._set_gains(-stiffness, -self._drive.damping * lever * lever)
-        missing = self._width - self._drive.gap.opening(length)
+        missing = self._width - opening
         self._data.ctrl[self._motor] = self._drive.stiffness * lever * missing + stiffness * length
 
     def measure(self, forces: list[tuple[int, int, int, float]]) -> None:
