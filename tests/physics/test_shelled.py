@@ -21,6 +21,13 @@ def pressed(kind: str, height: float, opening: float, force: float, duration: fl
     return run(turtle, f"close(hand1, {force})", duration=duration)
 
 
+@pytest.mark.parametrize("kind", ["Egg", "QuailEgg", "MandM", "Coconut"])
+def test_contact_is_stable_at_the_longer_substeps_of_what_rests(kind: str) -> None:
+    log = run(f":floor a :Floor . :table1 a :Table . :egg1 a :{kind} ; :on :table1 .", duration=0.6)
+    weight = 9.81 * sum(thing.mass for thing in log.things if thing.whole is None and "Breakable" in thing.roles)
+    assert log.channels["egg1.force"][-100:] == pytest.approx(np.full(100, weight), rel=0.01)
+
+
 @pytest.fixture(scope="module")
 def quail() -> Log:
     return pressed("QuailEgg", 0.0131, 0.03, 40.0)

@@ -28,6 +28,9 @@ CONTACT_STEP = 2.5e-4
 CONTACT_PHASE = 0.66
 """Greatest phase by which a shell that bounces on its contact goes on in a substep [rad]: that of a light egg, of 50 g,
 at its pole. What is lighter and stiffer takes shorter ones."""
+STEADY_STEP = 2.0
+"""Under one steady contact a substep is longer by this factor [1]: there is no impact to follow, and contact is stable
+below 2 rad. Several contacts are as stiff as all of them together."""
 BETWEEN_SAMPLES = 0.9
 """Margin of the screen for contacts between its sampled points [1]."""
 LIGHT = 0.2
@@ -98,7 +101,7 @@ class Breaking(Phenomenon):
         self.thing = thing
         self.shell_name = shell.name
         self.index = names[thing.name]
-        self._geom = f"{thing.name}/0"
+        self._geom, self._number, self._numbered = f"{thing.name}/0", -1, -1
         self.pieces = [names[part.name] for part in state.world.scene.parts(shell.name)]
         self.kernels = [names[part.name] for part in state.world.scene.parts(thing.name) if "Piece" in part.roles]
         a, b, c = thing.shape.geoms[0].size
@@ -126,11 +129,12 @@ class Breaking(Phenomenon):
         """Greatest bond load over strength in the tick [1]; 0 while the screen shows that none can break."""
         self.force = 0.0
         """Greatest sum of normal forces on one body in the tick [N]."""
-        self._pressed_most = -1
+        self._pressed_most, self._touches = -1, 0
         self._changed = False
         self._fresh = True
         self._ticks = 0
         self._steady = False
+        self._calm = False
         self._active = -1
         self._last: tuple[int, dict[int, float]] = (-1, {})
         self._version = -1
@@ -143,22 +147,27 @@ class Breaking(Phenomenon):
 
     def substep(self, state: State) -> float:
         """Return the substep that breaking needs now [s], and bring the contact's stiffness up to date."""
+        self._calm = self._steady and self.load < STEADY_LOAD
         self.force, self.load = 0.0, 0.0
         self._ticks += 1
         self._fresh = self._ticks % LOOK_TICKS == 0
         if not self.intact:
             return MAX_STEP
         near = self._near(state)
-        pressed = near and 0 <= self._pressed_most < state.data.ncon
-        self._contact.update(state, state.data.contact.pos[self._pressed_most] if pressed else None)
-        return self._contact_step if near else MAX_STEP
+        if self._fresh or not self._calm or not self._contact.knows(state):
+            pressed = near and 0 <= self._pressed_most < state.data.ncon
+            self._contact.update(state, state.data.contact.pos[self._pressed_most] if pressed else None)
+        if not near:
+            return MAX_STEP
+        longer = STEADY_STEP / math.sqrt(self._touches) if self._calm and self._touches else 1.0
+        return self._contact_step * max(longer, 1.0)
 
     def is_steady(self) -> bool:
         """Return whether no bond can come to break within a tick, so that its substeps need no look one by one.
 
         So it is while no contact is new or about to close and the forces hardly change.
         """
-        return self._steady and self.load < STEADY_LOAD
+        return self._calm
 
     def act(self, state: State) -> list[Detachment]:
         """Break what the contact forces of the last substep overload, and return the detached bonds."""
@@ -206,7 +215,7 @@ class Breaking(Phenomenon):
     def _contact_totals(self, state: State) -> dict[int, float]:
         """Return the sum of the normal forces on each body that may break [N], by body."""
         totals = dict.fromkeys(self._watched, 0.0)
-        self._pressed_most, greatest = -1, 0.0
+        self._pressed_most, self._touches, greatest = -1, 0, 0.0
         if not self.intact:
             # Shards have many contacts, and nobody asks which of theirs presses most.
             contact = state.data.contact
@@ -221,6 +230,7 @@ class Breaking(Phenomenon):
             for body in (first, second):
                 if body in totals:
                     totals[body] += force
+                    self._touches += 1
                     if force > greatest:
                         self._pressed_most, greatest = contact, force
         return totals
@@ -320,9 +330,11 @@ class Breaking(Phenomenon):
 
     def _near(self, state: State) -> bool:
         """Return whether anything is near the intact thing."""
-        geom = state.model.geom(self._geom).id
-        # As lists: there are few contacts before it breaks.
-        return state.data.ncon > 0 and any(geom in pair for pair in state.data.contact.geom.tolist())
+        if not state.data.ncon:
+            return False
+        if self._numbered != state.version:
+            self._numbered, self._number = state.version, int(state.model.geom(self._geom).id)
+        return any(self._number in pair for pair in state.touching())
 
 
 def _calm(graph: BondGraph) -> float:

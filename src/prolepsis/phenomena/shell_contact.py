@@ -30,6 +30,10 @@ class ShellContact:
         self._stiffness = 0.0
         self._version = -1
 
+    def knows(self, state: State) -> bool:
+        """Return whether the model is still the one whose contacts were given their stiffness."""
+        return self._version == state.version
+
     def update(self, state: State, point: FloatArray | None) -> None:
         """Give its contacts the stiffness of the shell at ``point`` [m], or at its lowest point when None."""
         body = state.data.body(self._thing.name)
