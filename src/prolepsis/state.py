@@ -341,7 +341,13 @@ class State:
         """Compile the model anew from the spec; the rest of the state is carried over."""
         # Rebuilding starts the count of warnings again.
         self.warnings += int(self.data.warning.number.sum())
+        old = (self.model.equality(number) for number in range(self.model.neq))
+        places = {joint.name: joint.data.copy() for joint in old if joint.name.startswith(JOINT)}
         self.model, self.data = self.spec.recompile(self.model, self.data)
+        # Compiling puts the second point where it would be in the first posture, which may be centimetres off.
+        for known in self.spec.equalities:
+            if known.name in places:
+                self.model.equality(known.name).data[:] = places[known.name]
         self.version += 1
         self.refresh()
 

@@ -83,6 +83,28 @@ def test_a_piece_comes_off_a_boiled_egg_at_the_force_of_the_ontology() -> None:
     assert len(state.bonds) == 29
 
 
+def test_joints_stay_in_place_when_a_shard_falls_apart() -> None:
+    state = State.of(compile_world(scene(":floor a :Floor . :egg1 a :HardBoiledEgg ; :z 0.5 .")))
+    controller = sticking.attach(state, Draw(rng=np.random.default_rng(1), spread=False))[0]
+    pieces = [i for i, thing in enumerate(state.world.scene.things) if "Piece" in thing.roles]
+    state.split("egg1", [pieces[:1], pieces[1:20], *([piece] for piece in pieces[20:])])
+    away = state.world.scene.things[pieces[-1]].name
+    state.data.joint(away).qpos[:3] += [0.05, 0.0, 0.0]  # it is no more where the model was built
+    for _ in range(2):
+        go_on(state, controller)
+    joint_count = len(state.joint_forces())
+    shard = state.world.scene.things[pieces[1]].name
+    state.split(shard, [pieces[1:10], pieces[10:20]])
+    left = len(state.joint_forces())
+    assert 0 < left < joint_count
+    assert strain(state) < 1.0e-4
+
+
+def strain(state: State) -> float:
+    """Return how far the points that joints hold together are apart at most [m]."""
+    return float(np.abs(state.data.efc_pos[: state.data.ne]).max())
+
+
 @pytest.mark.parametrize("wet", [True, False])
 def test_a_wet_piece_sticks_to_a_wall_until_the_film_has_run_out(wet: bool) -> None:
     state, controller = apart(":floor a :Floor . :wall1 a :Wall ; :x 0.3 ; :yaw 90.0 . :egg1 a :Egg ; :z 0.3 .")
