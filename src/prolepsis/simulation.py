@@ -121,6 +121,8 @@ def simulate(
                 version = state.version
                 detachments += [(tick, detached) for detached in phenomenon.act(state)]
                 if state.version != version:
+                    for each in going:
+                        each.bind(state)
                     state.model.opt.timestep = TICK / count
                     recorder.note_version(state)
                     controls.bind(state)

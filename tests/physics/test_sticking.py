@@ -98,6 +98,9 @@ def test_joints_stay_in_place_when_a_shard_falls_apart() -> None:
     left = len(state.joint_forces())
     assert 0 < left < joint_count
     assert strain(state) < 1.0e-4
+    controller.bind(state)
+    assert len(state.joint_forces()) == joint_count
+    assert strain(state) < 1.0e-4
 
 
 def strain(state: State) -> float:

@@ -70,13 +70,17 @@ class Adhesion(Phenomenon):
             self.holds += holds
             self._join(state)
 
+    def bind(self, state: State) -> None:
+        """Make the joints anew: with a body that has fallen apart its joints are gone."""
+        if self.holds and self._version != state.version:
+            self._join(state)
+
     def act(self, state: State) -> list[Detachment]:
         """Take apart what is pulled too hard; nothing breaks by that."""
         if not self.holds:
             return []
         if self._version != state.version:
-            # Something has fallen apart, and with its body the joints are gone.
-            self._join(state)
+            self.bind(state)
             return []
         if not self._joined:
             return []

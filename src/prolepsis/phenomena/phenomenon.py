@@ -37,6 +37,10 @@ class Phenomenon:
         """Return whether the substeps of the coming tick need no look one by one."""
         return True
 
+    def bind(self, state: State) -> None:
+        """Give a model that is new, since something has fallen apart, what it needs in the next substep."""
+        del state
+
     def act(self, state: State) -> list[Detachment]:
         """Do its work after a substep, and return the bonds that gave way."""
         del state
