@@ -46,6 +46,8 @@ class Hold:
     """When it began [s]."""
     pull: float = 0.0
     """Mean pull of late [N]."""
+    loose: bool = False
+    """Whether it slides now, so that no joint holds."""
     place_on_holder: FloatArray | None = None
     """The same point in the frame of the holder [m], shape (3,); None until they have been joined."""
 
@@ -92,11 +94,12 @@ class Adhesion(Phenomenon):
                 continue
             if hold.slides and self._pressed(state, hold) > MOST_PRESSED * hold.strength:
                 state.data.eq_active[joint] = 0
-                hold.pull, hold.since = 0.0, time
+                hold.pull, hold.since, hold.loose = 0.0, time, True
                 continue
-            if not state.data.eq_active[joint]:
+            if hold.loose:
                 self._renew(state, hold)
                 state.data.eq_active[joint] = 1
+                hold.loose = False
             if joint not in forces:
                 continue
             out = self._turn(state, hold.holder) @ hold.normal
@@ -134,6 +137,8 @@ class Adhesion(Phenomenon):
             place, other = self._places(state, hold)
             joints.append(PointJoint(first=first, second=second, place_on_first=place, place_on_second=other))
         self._numbers = state.join(joints)
+        for number, hold in zip(self._numbers, self._joined, strict=True):
+            state.data.eq_active[number] = not hold.loose
         self._version = state.version
         self._report(state)
 

@@ -26,8 +26,6 @@ SLOW = 0.02
 """Speed relative to each other below which two things stick [m/s]."""
 GENTLE = 0.1
 """What is pressed harder in one contact [N] does not begin to stick: shards that are jammed in a grip shake."""
-HARD = 1.0
-"""While a piece is pressed harder than this [N], as in a grip that crushes, films hold nothing."""
 BELOW = 0.5
 """What lies under a piece, its normal within 60 degrees of up, carries it: nothing need stick [1]."""
 
@@ -66,29 +64,15 @@ class Sticking(Adhesion):
         if self._due:
             self._due = False
             new = self._opened(state)
-            if self._is_crushed(state):
-                self._let_films_go(state)
-                return super().act(state) if not new else self._stuck(state, new)
             if self._ticks % LOOK_TICKS == 0 and state.particles is not None and state.particles.free.any():
                 new += self._wetted(state)
             if new:
                 return self._stuck(state, new)
         return super().act(state)
 
-    def _is_crushed(self, state: State) -> bool:
-        """Return whether any piece is pressed hard."""
-        of, pieces = state.body_thing, self._pieces
-        return any(force > HARD and (of[a] in pieces or of[b] in pieces) for _, a, b, force in state.normal_forces())
-
     def _stuck(self, state: State, new: list[Hold]) -> list[Detachment]:
         self.stick(state, new)
         return []
-
-    def _let_films_go(self, state: State) -> None:
-        """Give up what films hold: in a grip that crushes, joints among jammed shards would make the run diverge."""
-        if any(hold.slides for hold in self.holds):
-            self.holds = [hold for hold in self.holds if not hold.slides]
-            self._join(state)
 
     def _opened(self, state: State) -> list[Hold]:
         """Return what holds the pieces of shells that have just opened to their kernels."""
