@@ -162,6 +162,7 @@ def _sense(state: State, controls: Controls, time: float) -> Sense:
         place=state.place,
         orientation=state.orientation,
         pressing=state.pressing,
+        cracked=lambda name: state.attribute(name, "broken") > 0.0,
         robots=robots,
     )
 

@@ -55,6 +55,24 @@ def test_an_action_is_repeated_until_the_condition_holds(two_hands: Scene) -> No
     assert hand.offset[2] == pytest.approx(-0.006)
 
 
+class Listening(FakeHand):
+    """A hand that hears the egg crack once it has gone down by 3 mm."""
+
+    def sense(self, time: float) -> Sense:
+        def cracked(name: str) -> bool:
+            return name == "egg1" and bool(self.offset[2] < -0.003)
+
+        return replace(super().sense(time), cracked=cracked)
+
+
+def test_blows_are_repeated_until_a_crack_is_heard(two_hands: Scene) -> None:
+    plan = (
+        "repeat_until(cracked(egg1), sequence([lift(hand1, -0.002), repeat_until(cracked(egg1), lift(hand1, -0.004))]))"
+    )
+    said = carried_out(plan, two_hands, Listening((0.0, 0.0, 0.722)))
+    assert [name for name, _ in ended(said)] == ["lift(hand1,-0.002)", "lift(hand1,-0.004)"]
+
+
 def test_what_holds_already_needs_no_repetition(two_hands: Scene) -> None:
     assert not carried_out("repeat_until(not(touching(egg1, table1)), lift(hand1, -0.002))", two_hands)
 

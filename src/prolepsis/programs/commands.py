@@ -246,6 +246,12 @@ def no_force(first: str, second: str) -> float:
     return 0.0
 
 
+def no_crack(name: str) -> bool:
+    """Return that a thing has not cracked."""
+    del name
+    return False
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Sense:
     """What a program may know at a tick."""
@@ -260,6 +266,8 @@ class Sense:
     """Unit quaternion (w, x, y, z) of a thing in the world, seen likewise."""
     pressing: Callable[[str, str], float] = no_force
     """Normal force between two things [N], as the skin or what is held tells it."""
+    cracked: Callable[[str], bool] = no_crack
+    """Whether a thing has cracked, as it is heard."""
     robots: Mapping[str, RobotSense] = field(default_factory=dict[str, RobotSense])
     """Each robot's sense of its other joints."""
 

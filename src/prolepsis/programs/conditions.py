@@ -46,6 +46,10 @@ def _above(sense: Sense, *, object: Thing, height: float) -> bool:
     return sense.place(object.name)[2] > height
 
 
+def _cracked(sense: Sense, *, object: Thing) -> bool:
+    return sense.cracked(object.name)
+
+
 OTHER = Parameter(name="other", kind="object")
 CONDITIONS = {
     "touching": ConditionSpec(parameters=(OBJECT, OTHER), doc="The two touch.", holds=_touching),
@@ -58,6 +62,7 @@ CONDITIONS = {
         doc="The object's frame is higher than a height over the ground.",
         holds=_above,
     ),
+    "cracked": ConditionSpec(parameters=(OBJECT,), doc="The object has been heard to crack.", holds=_cracked),
 }
 """All conditions by name; ``not(C)`` turns one round."""
 
