@@ -8,14 +8,14 @@ import pytest
 
 from prolepsis import Projection, project
 
-SPLIT = Path(__file__).parents[2] / "examples" / "pr2_split.toml"
+EXAMPLES = Path(__file__).parents[2] / "examples"
 
 pytestmark = pytest.mark.laws
 
 
 @pytest.fixture(scope="module")
 def parted() -> Projection:
-    return project(SPLIT)
+    return project(EXAMPLES / "pr2_split.toml")
 
 
 def test_both_hands_hold_the_cracked_egg_before_it_opens(parted: Projection) -> None:
@@ -28,3 +28,12 @@ def test_both_hands_hold_the_cracked_egg_before_it_opens(parted: Projection) -> 
 def test_what_was_inside_ends_in_the_bowl(parted: Projection) -> None:
     assert parted.ask("evidence(contains(bowl1, yolk1), T, fraction, F), F > 0.9")
     assert not parted.ask("holds(broken(yolk1), T)")
+
+
+def test_blows_end_when_a_crack_is_heard_and_the_egg_is_opened_over_the_bowl() -> None:
+    run = project(EXAMPLES / "pr2_split_heard.toml")
+    blow, crack = "occurs(hitting(rightGripper, egg1, bowl1, _), H)", "occurs(breaking(egg1), B)"
+    assert run.ask(f"{blow}, {crack}, before(H, B)")
+    assert run.ask(f"{blow}, {crack}, allen(during, B, H)")
+    assert not run.ask(f"{blow}, {crack}, after(H, B)")
+    assert run.ask("evidence(contains(bowl1, yolk1), _, fraction, F), F > 0.9, \\+ holds(broken(yolk1), _)")
