@@ -10,8 +10,6 @@ from prolepsis import Projection, project
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
-pytestmark = pytest.mark.laws
-
 
 @pytest.fixture(scope="module")
 def parted() -> Projection:
