@@ -101,12 +101,10 @@ def usage_of(name: str, parameters: Iterable[Parameter]) -> str:
     shown: list[str] = []
     for parameter in parameters:
         variable = parameter.name[0].upper() + parameter.name[1:]
-        told = KINDS[parameter.kind]
-        unit = told.strip("[]") if told.startswith("[") else UNITS.get(parameter.kind, "")
-        if isinstance(parameter.default, str):
-            shown.append(f"{variable} = {parameter.default}")
-        else:
-            shown.append(variable if parameter.default is None else f"{variable} = {parameter.default:g} {unit}")
+        told, default = KINDS[parameter.kind], parameter.default
+        unit = told.strip("[]1") if told.startswith("[") else UNITS.get(parameter.kind, "")
+        value = default if default is None or isinstance(default, str) else f"{default:g} {unit}".rstrip()
+        shown.append(variable if value is None else f"{variable} = {value}")
     return f"{name}({', '.join(shown)})"
 
 
