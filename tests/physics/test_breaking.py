@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,6 +11,8 @@ from tests.scenes import EGG_IN_HAND, falling_egg, run, scene
 
 from prolepsis.engine import mujoco
 from prolepsis.log import Log
+from prolepsis.phenomena.breaking import attach
+from prolepsis.phenomena.phenomenon import Draw
 from prolepsis.phenomena.shell_contact import local_stiffness
 from prolepsis.scene import compile_world
 from prolepsis.state import State
@@ -103,6 +106,27 @@ def test_pieces_move_on_as_their_whole_did_and_nothing_is_lost() -> None:
     assert momentum(state) == pytest.approx(before * (MASS - inside) / MASS, abs=1e-4)
     assert {int(state.carrier[i]) for i in pieces} == {pieces[0], pieces[13]}
     assert state.carrier[state.world.scene.index("egg1")] == -1
+
+
+def test_a_shell_that_is_whole_stays_as_stiff_when_another_falls_apart() -> None:
+    state = State.of(
+        compile_world(scene(":floor a :Floor . :egg1 a :Egg ; :on :floor . :egg2 a :Egg ; :on :floor ; :x 0.2 ."))
+    )
+    _, second = attach(state, Draw(rng=np.random.default_rng(1), spread=False))
+    before = stiffness_of(state, "egg2/0")
+    names = {thing.name: i for i, thing in enumerate(state.world.scene.things)}
+    state.split("egg1", [[names[part.name]] for part in state.world.scene.parts("eggshell1")])
+    assert not np.allclose(stiffness_of(state, "egg2/0"), before)
+    second.bind(state)
+    assert np.allclose(stiffness_of(state, "egg2/0"), before)
+
+
+def stiffness_of(state: State, name: str) -> FloatArray:
+    """Return MuJoCo's reference of a geom's contact with the floor."""
+    model: Any = state.model
+    geoms = {int(model.geom(name).id), int(model.geom("floor/0").id)}
+    (pair,) = [p for p in range(model.npair) if {int(model.pair_geom1[p]), int(model.pair_geom2[p])} == geoms]
+    return np.array(model.pair_solref[pair])
 
 
 def momentum(state: State) -> FloatArray:

@@ -169,6 +169,12 @@ class Breaking(Phenomenon):
         """
         return self._calm
 
+    def bind(self, state: State) -> None:
+        """Give the contacts of a shell that is still whole what they had before the model was rebuilt."""
+        if self.intact:
+            self._contact.bind(state)
+            self._dents.bind(state)
+
     def act(self, state: State) -> list[Detachment]:
         """Break what the contact forces of the last substep overload, and return the detached bonds."""
         if not state.data.ncon:

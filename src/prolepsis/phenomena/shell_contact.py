@@ -44,9 +44,13 @@ class ShellContact:
         stiffness = local_stiffness(self._semi_axes, along, self._plate_stiffness, self._pole_ratio)
         if abs(stiffness - self._stiffness) < SAME * stiffness and self._version == state.version:
             return
-        # A model that was rebuilt because something else broke has lost what was set before.
-        self._stiffness, self._version = stiffness, state.version
-        model = state.model
+        self._stiffness = stiffness
+        self.bind(state)
+
+    def bind(self, state: State) -> None:
+        """Pass the stiffness on; a model that was rebuilt because something else broke has lost what was set before."""
+        self._version = state.version
+        model, stiffness = state.model, self._stiffness
         geom = model.geom(f"{self._thing.name}/0").id
         for p in range(model.npair):
             if geom in (model.pair_geom1[p], model.pair_geom2[p]):

@@ -60,7 +60,7 @@ class ShellDents:
 
     def begin(self, state: State, contacts: IntArray, forces: FloatArray) -> None:
         """Let the shell be pressed in from now on at contacts, given by their numbers, by no more than forces [N]."""
-        self._bind(state)
+        self.bind(state)
         for other, force in self._totals(state, contacts, forces).items():
             dent = self._dents.setdefault(other, Dent(force=force, distance=math.inf))
             dent.force = min(dent.force, force)
@@ -70,7 +70,7 @@ class ShellDents:
 
         A dent that nothing is near any more is forgotten.
         """
-        self._bind(state)
+        self.bind(state)
         touching = self._touching(state)
         through: list[FloatArray] = []
         for other in self._dents.keys() - touching.keys():
@@ -97,7 +97,7 @@ class ShellDents:
         The rest is but the overshoot of a dent that grows. With ``relief`` [1] the shell has just cracked: where more
         than a cracked shell bears presses, the force falls to that part of it.
         """
-        self._bind(state)
+        self.bind(state)
         totals = self._totals(state, contacts, normal)
         share = {other: self._share(total, self._dents.get(other), relief) for other, total in totals.items()}
         return np.array([share[self._other(state, contact)] for contact in contacts.tolist()])
@@ -152,7 +152,7 @@ class ShellDents:
         for pair in self._pairs.get(other, ()):
             state.model.pair_margin[pair] = -depth
 
-    def _bind(self, state: State) -> None:
+    def bind(self, state: State) -> None:
         """Look at a model that is new; one that was rebuilt has lost what was set before."""
         if self._version == state.version:
             return
