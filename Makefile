@@ -23,7 +23,7 @@ bench: setup-dev  ## the benchmarks, as one table
 	@$(PY) benchmarks/run.py
 
 experiments: setup  ## run the experiments and write docs/experiments; ARGS='--only grasping'
-	@$(PY) examples/experiments/pages.py $(ARGS)
+	@OPENBLAS_NUM_THREADS=1 $(PY) examples/experiments/pages.py $(ARGS)
 
 setup:  ## what `make demo` needs: Debian packages, .venv, the locked packages
 	@tools/setup.sh runtime
