@@ -189,11 +189,13 @@ def _shown(page: str, run: Run, done: Projection) -> Iterator[str]:
         if len(answers) > run.limit:
             lines.append(f"... and {len(answers) - run.limit} more")
         yield "```prolog\n?- " + goal.strip().replace("\n", "\n   ") + ".\n\n" + "\n".join(lines) + "\n```"
-    if run.times:
+    # A run that ends sooner than others of its page is shown at its end once.
+    times = list(dict.fromkeys(min(float(t), round(done.log.tick_count * done.log.dt, 1)) for t in run.times))
+    if times:
         file = _picture(page, run.name)
-        render_strip(done.log, file, times=[float(t) for t in run.times], size=PICTURE, part=run.part, **run.view)
+        render_strip(done.log, file, times=times, size=PICTURE, part=run.part, **run.view)
         _shrink(file)
-        yield f"![{run.name} at {', '.join(f'{t:g}' for t in run.times)} s](pictures/{file.name})"
+        yield f"![{run.name} at {', '.join(f'{t:g}' for t in times)} s](pictures/{file.name})"
     for k, plot in enumerate(run.plot):
         file = _picture(page, f"{run.name}_plot{k}")
         _draw(done, plot, file)
