@@ -343,11 +343,18 @@ class State:
         self.warnings += int(self.data.warning.number.sum())
         old = (self.model.equality(number) for number in range(self.model.neq))
         places = {joint.name: joint.data.copy() for joint in old if joint.name.startswith(JOINT)}
+        pairs = [self.model.pair(number) for number in range(self.model.npair)]
+        contacts = {each.name: (each.solref.copy(), each.solimp.copy(), each.margin.copy()) for each in pairs}
         self.model, self.data = self.spec.recompile(self.model, self.data)
         # Compiling puts the second point where it would be in the first posture, which may be centimetres off.
         for known in self.spec.equalities:
             if known.name in places:
                 self.model.equality(known.name).data[:] = places[known.name]
+        # The spec does not know what controllers have made of contacts.
+        for known in self.spec.pairs:
+            if known.name in contacts:
+                now = self.model.pair(known.name)
+                now.solref[:], now.solimp[:], now.margin[:] = contacts[known.name]
         self.version += 1
         self.refresh()
 

@@ -154,7 +154,7 @@ class Breaking(Phenomenon):
         if not self.intact:
             return MAX_STEP
         near = self._near(state)
-        if self._fresh or not self._calm or not self._contact.knows(state):
+        if self._fresh or not self._calm:
             pressed = near and 0 <= self._pressed_most < state.data.ncon
             self._contact.update(state, state.data.contact.pos[self._pressed_most] if pressed else None)
         if not near:
@@ -168,12 +168,6 @@ class Breaking(Phenomenon):
         So it is while no contact is new or about to close and the forces hardly change.
         """
         return self._calm
-
-    def bind(self, state: State) -> None:
-        """Give the contacts of a shell that is still whole what they had before the model was rebuilt."""
-        if self.intact:
-            self._contact.bind(state)
-            self._dents.bind(state)
 
     def act(self, state: State) -> list[Detachment]:
         """Break what the contact forces of the last substep overload, and return the detached bonds."""

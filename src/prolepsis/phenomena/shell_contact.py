@@ -28,11 +28,6 @@ class ShellContact:
         self._semi_axes = np.array(thing.shape.geoms[0].size)
         self._plate_stiffness, self._pole_ratio = plate_stiffness, pole_ratio
         self._stiffness = 0.0
-        self._version = -1
-
-    def knows(self, state: State) -> bool:
-        """Return whether the model is still the one whose contacts were given their stiffness."""
-        return self._version == state.version
 
     def update(self, state: State, point: FloatArray | None) -> None:
         """Give its contacts the stiffness of the shell at ``point`` [m], or at its lowest point when None."""
@@ -42,15 +37,10 @@ class ShellContact:
         unit = place / self._semi_axes
         along = abs(unit[0]) / math.sqrt(float(unit @ unit))
         stiffness = local_stiffness(self._semi_axes, along, self._plate_stiffness, self._pole_ratio)
-        if abs(stiffness - self._stiffness) < SAME * stiffness and self._version == state.version:
+        if abs(stiffness - self._stiffness) < SAME * stiffness:
             return
         self._stiffness = stiffness
-        self.bind(state)
-
-    def bind(self, state: State) -> None:
-        """Pass the stiffness on; a model that was rebuilt because something else broke has lost what was set before."""
-        self._version = state.version
-        model, stiffness = state.model, self._stiffness
+        model = state.model
         geom = model.geom(f"{self._thing.name}/0").id
         for p in range(model.npair):
             if geom in (model.pair_geom1[p], model.pair_geom2[p]):

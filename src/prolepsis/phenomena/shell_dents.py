@@ -60,7 +60,7 @@ class ShellDents:
 
     def begin(self, state: State, contacts: IntArray, forces: FloatArray) -> None:
         """Let the shell be pressed in from now on at contacts, given by their numbers, by no more than forces [N]."""
-        self.bind(state)
+        self._bind(state)
         for other, force in self._totals(state, contacts, forces).items():
             dent = self._dents.setdefault(other, Dent(force=force, distance=math.inf))
             dent.force = min(dent.force, force)
@@ -70,7 +70,7 @@ class ShellDents:
 
         A dent that nothing is near any more is forgotten.
         """
-        self.bind(state)
+        self._bind(state)
         touching = self._touching(state)
         through: list[FloatArray] = []
         for other in self._dents.keys() - touching.keys():
@@ -97,7 +97,7 @@ class ShellDents:
         The rest is but the overshoot of a dent that grows. With ``relief`` [1] the shell has just cracked: where more
         than a cracked shell bears presses, the force falls to that part of it.
         """
-        self.bind(state)
+        self._bind(state)
         totals = self._totals(state, contacts, normal)
         share = {other: self._share(total, self._dents.get(other), relief) for other, total in totals.items()}
         return np.array([share[self._other(state, contact)] for contact in contacts.tolist()])
@@ -129,9 +129,7 @@ class ShellDents:
         data = state.data
         found: dict[str, Touch] = {}
         geom = int(state.model.geom(self._geom).id)
-        for contact, (pair, row) in enumerate(
-            zip(data.contact.geom.tolist(), data.contact.efc_address.tolist(), strict=True)
-        ):
+        for contact, (pair, row) in enumerate(zip(state.touching(), data.contact.efc_address.tolist(), strict=True)):
             if geom not in pair:
                 continue
             touch = found.setdefault(self._other(state, contact), Touch())
@@ -145,15 +143,15 @@ class ShellDents:
 
     def _other(self, state: State, contact: int) -> str:
         """Return the name of the body that touches the shell at a contact."""
-        a, b = state.data.contact.geom[contact].tolist()
+        a, b = state.touching()[contact]
         return self._others[a] if a in self._others else self._others[b]
 
     def _press_in(self, state: State, other: str, depth: float) -> None:
         for pair in self._pairs.get(other, ()):
             state.model.pair_margin[pair] = -depth
 
-    def bind(self, state: State) -> None:
-        """Look at a model that is new; one that was rebuilt has lost what was set before."""
+    def _bind(self, state: State) -> None:
+        """Look the contacts up in a model that is new."""
         if self._version == state.version:
             return
         self._version = state.version
@@ -165,5 +163,3 @@ class ShellDents:
                 name = model.body(int(model.geom_bodyid[other])).name
                 self._others[other] = name
                 self._pairs.setdefault(name, []).append(number)
-        for other, dent in self._dents.items():
-            self._press_in(state, other, dent.depth)
