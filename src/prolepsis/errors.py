@@ -90,3 +90,7 @@ class InvalidSimulationError(ProlepsisError):
 
 class MissingToolError(ProlepsisError):
     """A program or library outside Python is missing."""
+
+
+class Note(UserWarning):
+    """What a user should know of an answer that is given all the same."""

@@ -64,3 +64,46 @@ test(empty, Verdict = syntax(0, _)) :- verdict(" ", Verdict).
 test(names, Names == ['X', 'T']) :- read_goal("holds(f(X, _Y, _), T)", _, Bindings), findall(N, member(N=_, Bindings), Names).
 
 :- end_tests(guard).
+
+%   The table says of each argument what the system says: a goal that is called is walked.
+
+called(?, false).
+called(Form, false) :- memberchk(Form, [sink, directives, relation]).
+called(Form, Form) :- integer(Form).
+called(^, ^).
+
+system_says(Form, Spec) :-
+    functor(Form, Name, Arity),
+    functor(Head, Name, Arity),
+    (   predicate_property(query:Head, meta_predicate(Spec))
+    ->  true
+    ;   Spec = Head
+    ).
+
+as_called(Said, Called) :-
+    (   ( integer(Said) ; Said == (^) )
+    ->  Called = Said
+    ;   Called = false
+    ).
+
+:- begin_tests(table).
+
+test(defined, Missing == []) :-
+    % Those that only newer versions have.
+    Newer = [max_member/3, min_member/3, scanl/4, scanl/5, scanl/6, scanl/7],
+    findall(Name/Arity,
+            ( may(Form), functor(Form, Name, Arity), \+ memberchk(Name/Arity, Newer),
+              functor(Head, Name, Arity), \+ exists(Head) ),
+            Missing).
+test(goals_are_walked, Different == []) :-
+    findall(Form-N,
+            ( may(Form), compound(Form), system_says(Form, Spec), arg(N, Form, Argument), called(Argument, Ours),
+              arg(N, Spec, Said), as_called(Said, Theirs), Ours \== Theirs ),
+            Different).
+test(every_argument_has_a_form, Strange == []) :-
+    findall(Form, ( may(Form), compound(Form), arg(_, Form, Argument), \+ called(Argument, _) ), Strange).
+test(once_each, Twice == []) :-
+    findall(Name/Arity, ( may(Form), functor(Form, Name, Arity) ), All),
+    findall(PI, ( select(PI, All, Others), memberchk(PI, Others) ), Twice).
+
+:- end_tests(table).

@@ -23,5 +23,6 @@ answers(Rows, Template, Goal, Answers) :-
         ( forall(( member(Row, [tick(0.001)|Types]) ; member(Row, Rows) ), format(Out, '~q.~n', [Row])),
           close(Out),
           load_run(test, File),
+          finish_run(test),
           findall(Template, with_run(test, Goal), Answers) ),
         delete_file(File)).

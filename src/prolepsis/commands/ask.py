@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 from typing import Any
 
 from prolepsis.commands.output import add_command, bindings, plain
@@ -22,6 +23,11 @@ def add_to(commands: Any) -> None:
     parser.add_argument("folder", metavar="DIR", help="folder that `prolepsis project --out` saved")
     parser.add_argument("goal", metavar="GOAL", help="one goal; exit status 1 if it has no answer")
     parser.add_argument("--json", action="store_true", help="print one JSON object per answer")
+    parser.add_argument(
+        "--require-confinement",
+        action="store_true",
+        help="refuse where Prolog cannot be kept from files, programs and the network (doctor tells)",
+    )
     parser.add_argument("--limit", type=int, metavar="N", help="print at most N answers")
 
 
@@ -29,6 +35,8 @@ def run(given: argparse.Namespace) -> int:
     """Print the answers, one a line; ``no`` and exit status 1 if there is none."""
     if given.limit is not None and given.limit < 1:
         raise InputError(f"--limit {given.limit}: at least 1 answer must be allowed")
+    if given.require_confinement:
+        os.environ["PROLEPSIS_REQUIRE_CONFINEMENT"] = "1"
     from prolepsis.saved import read_timeline
 
     answers = read_timeline(given.folder).ask(given.goal, limit=given.limit)

@@ -8,6 +8,7 @@ import re
 import shutil
 import subprocess
 import sys
+import warnings
 from collections.abc import Callable
 from importlib.metadata import PackageNotFoundError, requires, version
 from typing import Any, cast
@@ -43,6 +44,7 @@ def run(given: argparse.Namespace) -> int:
         "Python": _python,
         "packages": _packages,
         "SWI-Prolog": _prolog,
+        "confinement": _confinement,
         "pictures": _pictures,
         "video": _video,
     }
@@ -94,6 +96,22 @@ def _prolog() -> str:
     if found < OLDEST_PROLOG:
         raise _Missing(f"{'.'.join(match.groups())} is older than 9.0.4", cure)
     return ".".join(match.groups())
+
+
+def _confinement() -> str:
+    """Start Prolog within its walls and look whether they hold."""
+    from prolepsis.logic.confinement import CURE, offered
+    from prolepsis.logic.process import PrologProcess
+
+    with warnings.catch_warnings(record=True) as notes:
+        warnings.simplefilter("always")
+        try:
+            PrologProcess().close()
+        except MissingToolError as error:
+            raise _Missing(str(error), "apt install swi-prolog-nox") from None
+    if notes:
+        raise _Missing(str(notes[0].message).rpartition("protects: ")[2], CURE)
+    return f"Prolog is kept from files, programs and the network by {offered()}"
 
 
 def _pictures() -> str:

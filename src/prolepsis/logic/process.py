@@ -1,6 +1,8 @@
-"""One SWI-Prolog process behind a unix domain socket, and the connections to it.
+"""One SWI-Prolog process behind a unix domain socket, confined, and the connections to it.
 
-This is the one place that knows ``swiplserver``, which has no types of its own.
+This is the one place that knows ``swiplserver``, which has no types of its own. The process is started here, not by
+that library: so it stands within its walls, no thread of this program waits for it, and it ends with this program,
+however that ends, since then its standard input is closed.
 """
 
 # pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownVariableType=false
@@ -9,25 +11,39 @@ This is the one place that knows ``swiplserver``, which has no types of its own.
 from __future__ import annotations
 
 import json
+import multiprocessing.util
 import os
-import resource
+import re
+import select
 import shutil
 import socket
+import subprocess
 import tempfile
 import time
+import warnings
 from pathlib import Path
-from typing import Any, cast
+from typing import IO, Any, cast
 
-from swiplserver import PrologError, PrologMQI, PrologThread
+from swiplserver import PrologError, PrologLaunchError, PrologMQI, PrologThread
 
-from prolepsis.errors import InputError, MissingToolError
+from prolepsis.errors import InputError, MissingToolError, Note
+from prolepsis.logic.confinement import Walls, command, offered
 
 PROLOG_FILES = Path(__file__).parent / "prolog"
 STACK_LIMIT = 256
 """Memory that one query may use for terms [MB]."""
 PROCESS_LIMIT = 4 << 30
 """Address space of the whole process [bytes]: what findall/3 collects is not on the stacks."""
+START_LIMIT = 60.0
+"""Longest time for starting [s]; it takes a quarter of a second."""
+LISTENS_AFTER = 0.02
+"""Time from which on Prolog listens, mostly, after it has told its socket [s]."""
+LONGEST_SOCKET = 91
+"""Longest path of a unix domain socket that every system takes [bytes]."""
+REQUIRE_CONFINEMENT = "PROLEPSIS_REQUIRE_CONFINEMENT"
+"""Environment variable that refuses to ask where Prolog cannot be confined."""
 NO_SWIPL = "SWI-Prolog is not installed (no 'swipl' on PATH): sudo apt install swi-prolog-nox"
+_FOLDER = re.compile(r"prolepsis-(\d+)-\w+")
 
 
 class ProcessLost(Exception):
@@ -68,28 +84,94 @@ class _Connection(PrologThread):
             raise ProcessLost("gone")
         return data
 
+    def abandon(self) -> None:
+        """Close the socket without a word to the process."""
+        if self._socket is not None:
+            self._socket.close()
+            self._socket = None
+
 
 class PrologProcess:
     """A running Prolog with our modules loaded. It keeps no facts that Python does not have, too."""
 
     def __init__(self) -> None:
-        if shutil.which("swipl") is None:
+        """Start it, confined as well as this system can.
+
+        Raises:
+            MissingToolError: If there is no SWI-Prolog, it does not start, or it cannot be confined and must be.
+        """
+        program = shutil.which("swipl")
+        if program is None:
             raise MissingToolError(NO_SWIPL)
-        self.owner = os.getpid()
-        self.folder = Path(tempfile.mkdtemp(prefix="prolepsis-"))
+        self.folder = _folder()
         self._idle: list[_Connection] = []
-        self._server: Any = PrologMQI(
-            unix_domain_socket=PrologMQI.unix_domain_socket_file(str(self.folder)),
-            pending_connection_count=64,
-            prolog_path_args=["-f", "none", "-O", f"--stack-limit={STACK_LIMIT}m", "-s", str(PROLOG_FILES / "main.pl")],
-        )
-        self._server.start()
-        resource.prlimit(self.process_id, resource.RLIMIT_AS, (PROCESS_LIMIT, PROCESS_LIMIT))
+        try:
+            self._start(program)
+        except BaseException:
+            shutil.rmtree(self.folder, ignore_errors=True)
+            raise
+        # Not atexit, without which a child ends that multiprocessing forked.
+        self._finalizer = multiprocessing.util.Finalize(None, self.close, exitpriority=0)
+
+    def _start(self, program: str) -> None:
+        walls = offered()
+        missing = walls.missing
+        try:
+            self._launch(program, walls)
+        except MissingToolError as error:
+            # A system whose libraries stand elsewhere than the walls let be read.
+            missing = f"it does not start within {walls}: {error}"
+            if _must_be_confined():
+                raise MissingToolError(f"Prolog cannot be confined, as required: {missing}") from None
+            self._launch(program, Walls())
+        else:
+            missing = missing or self._hole()
+        if missing and _must_be_confined():
+            self._end()
+            raise MissingToolError(f"Prolog cannot be confined, as required: {missing}")
+        if missing:
+            warnings.warn(f"Prolog is not confined; only the check of each goal protects: {missing}", Note, 2)
+
+    def _launch(self, program: str, walls: Walls) -> None:
+        arguments = [
+            "-f",
+            "none",
+            "-O",
+            f"--stack-limit={STACK_LIMIT}m",
+            "-s",
+            str(PROLOG_FILES / "main.pl"),
+            "--quiet",
+        ]
+        arguments += ["-g", "serve", "-t", "halt", "--", "--write_connection_values=true", "--pending_connections=64"]
+        arguments += [f"--unix_domain_socket={PrologMQI.unix_domain_socket_file(str(self.folder))}"]
+        words = command(program, arguments, walls=walls, folder=self.folder, code=PROLOG_FILES, memory=PROCESS_LIMIT)
+        with tempfile.TemporaryFile() as said:
+            self._process = subprocess.Popen(
+                words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=said, start_new_session=True
+            )
+            try:
+                path, password = _first_lines(cast(IO[bytes], self._process.stdout), time.monotonic() + START_LIMIT)
+                server: Any = PrologMQI(launch_mqi=False, unix_domain_socket=path, password=password)
+                self._server = server
+                # Prolog tells its socket just before it listens, and the library waits a second for a second try.
+                time.sleep(LISTENS_AFTER)
+                self.call("Reply = ok", START_LIMIT)
+            except (ProcessLost, PrologLaunchError, OSError, ValueError) as error:
+                self._end()
+                said.seek(0)
+                words_said = said.read(2000).decode(errors="replace").split()
+                why = " ".join(words_said)[:120] or str(error)
+                raise MissingToolError(f"{program} does not start as SWI-Prolog does: {why}") from None
+
+    def _hole(self) -> str:
+        """Try the walls: return what can be reached, empty if a file that everybody may read cannot be."""
+        goal = f"catch((open('{Path(__file__)}', read, S), close(S), Reply = open), error(_, _), Reply = closed)"
+        return "it reads files in spite of its walls" if self.call(goal, START_LIMIT) == "open" else ""
 
     @property
     def process_id(self) -> int:
         """Process number of SWI-Prolog."""
-        return self._server.process_id()
+        return self._process.pid
 
     def call(self, goal: str, seconds: float) -> str:
         """Run ``goal``, which binds ``Reply`` to a string, and return that string.
@@ -112,17 +194,88 @@ class PrologProcess:
         except PrologError as error:
             self._idle.append(connection)
             raise InputError(str(error)) from error
+        except BaseException:  # such as Ctrl-C: what comes next on this connection is the answer to this goal
+            connection.abandon()
+            raise
         self._idle.append(connection)
         return result[0]["Reply"]
 
     def close(self) -> None:
-        """End the process and remove its folder. In a forked child, leave both to the parent."""
-        if self.owner != os.getpid():
-            return
-        for connection in self._idle:
-            if connection._socket is not None:
-                connection._socket.close()
-        self._idle.clear()
-        self._server._process.kill()
-        self._server._process.wait()
+        """End the process and remove its folder."""
+        self._finalizer.cancel()
+        self._end()
         shutil.rmtree(self.folder, ignore_errors=True)
+
+    def leave_to_parent(self) -> None:
+        """In a forked child: close this program's ends of what leads to the process, which is the parent's."""
+        self._close_ends()
+        self._process.returncode = 0  # Else it is waited for when it is forgotten.
+
+    def _end(self) -> None:
+        self._close_ends()
+        self._process.kill()
+        self._process.wait()
+
+    def _close_ends(self) -> None:
+        for connection in self._idle:
+            connection.abandon()
+        self._idle.clear()
+        for stream in (self._process.stdin, self._process.stdout):
+            if stream is not None:
+                stream.close()
+
+
+def _must_be_confined() -> bool:
+    return os.environ.get(REQUIRE_CONFINEMENT, "") not in ("", "0")
+
+
+def _folder() -> Path:
+    """Return a new folder for the socket, and remove those of programs that were killed."""
+    tried: list[str] = []
+    for parent in dict.fromkeys((_temporary(), "/tmp", "/dev/shm")):
+        if parent is None or len(os.fsencode(parent)) + 70 > LONGEST_SOCKET:
+            continue
+        try:
+            folder = Path(tempfile.mkdtemp(prefix=f"prolepsis-{os.getpid()}-", dir=parent))
+        except OSError as error:
+            tried.append(f"{parent}: {error.strerror}")
+            continue
+        _clean(Path(parent))
+        return folder
+    raise MissingToolError(f"no folder for temporary files: {'; '.join(tried) or 'set TMPDIR to a short path'}")
+
+
+def _temporary() -> str | None:
+    try:
+        return os.path.abspath(tempfile.gettempdir())
+    except OSError:
+        return None
+
+
+def _clean(parent: Path) -> None:
+    for entry in os.scandir(parent):
+        match = _FOLDER.fullmatch(entry.name)
+        if match is None or not entry.is_dir(follow_symlinks=False):
+            continue
+        try:
+            if entry.stat(follow_symlinks=False).st_uid == os.getuid():
+                os.kill(int(match.group(1)), 0)
+        except ProcessLookupError:
+            shutil.rmtree(entry.path, ignore_errors=True)
+        except OSError:
+            continue
+
+
+def _first_lines(stream: IO[bytes], deadline: float) -> tuple[str, str]:
+    """Return the path of the socket and the password, which Prolog writes when it is ready."""
+    said = b""
+    while said.count(b"\n") < 2:
+        left = deadline - time.monotonic()
+        if left <= 0 or not select.select([stream], [], [], left)[0]:
+            raise ProcessLost("it tells no socket in time")
+        data = os.read(stream.fileno(), 4096)
+        if not data or len(said) > 10_000:
+            raise ProcessLost("it tells no socket")
+        said += data
+    path, password, *_ = said.decode().splitlines()
+    return path, password

@@ -71,6 +71,8 @@ def refusal(status: str, body: str, goal: str, time_limit: float, timeline: Time
             return GoalLimitError(f"time limit of {time_limit:g} s reached: {shown(goal)}")
         case "memory":
             return GoalLimitError(f"memory limit of {STACK_LIMIT} MB reached: {shown(goal)}")
+        case "much":
+            return GoalLimitError(f"the answers have more than {int(body):,} characters; set a limit: {shown(goal)}")
         case "error" if "not sufficiently instantiated" in body:
             return GoalError(
                 f"a value is needed before it is known; give it, or put the goals that find it first: {shown(goal)}"

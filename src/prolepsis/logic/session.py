@@ -9,13 +9,16 @@ from __future__ import annotations
 import os
 import re
 import threading
+import time
+import warnings
 import weakref
 from functools import lru_cache
 from pathlib import Path
 
-from prolepsis.errors import GoalError, GoalLimitError, InputError
+from prolepsis.errors import GoalError, GoalLimitError, InputError, Note
 from prolepsis.logic.process import ProcessLost, PrologProcess
 from prolepsis.logic.refusals import refusal, shown
+from prolepsis.logic.rules import read_rules, rule_refusal
 from prolepsis.logic.run_file import write_run
 from prolepsis.terms import Value, format_atom, format_value, parse_term
 from prolepsis.timeline import Timeline
@@ -24,6 +27,8 @@ GRACE = 5.0
 """Time beyond its limit after which a query that does not even stop is ended with its process [s]."""
 LOAD_LIMIT = 600.0
 """Longest time for loading one run [s]."""
+CHRONICLE_LIMIT = 10.0
+"""Longest time for working out one chronicle of a user's in one run [s]."""
 LONGEST = 86_400.0
 """Longest time limit [s]."""
 LONGEST_GOAL = 20_000
@@ -37,7 +42,8 @@ class Session:
         """Prepare a session.
 
         Args:
-            chronicles: Prolog files with further rules ``chronicle(Event, Start-End) :- ...``.
+            chronicles: Prolog files with further rules ``chronicle(Event, Start-End) :- ...``. They are read as data
+                and checked as goals are, so that a file from anybody can be given.
         """
         self._chronicles = tuple(Path(file).resolve() for file in chronicles)
         self._process: PrologProcess | None = None
@@ -46,12 +52,15 @@ class Session:
         self._names: dict[int, str] = {}
         self._loaded: set[str] = set()
         self._made = 0
-        # Not atexit: that comes after Python has waited for swiplserver's threads, which read until Prolog ends.
-        threading.Thread(target=self._close_with_the_program, name="prolepsis-session").start()
+        _sessions.add(self)
 
-    def _close_with_the_program(self) -> None:
-        threading.main_thread().join()
-        self.close()
+    def begin_anew(self) -> None:
+        """In a forked child: leave the process to the parent. Locks may be held by threads that only the parent has."""
+        self._lock, self._alone = threading.RLock(), threading.Lock()
+        if self._process is not None:
+            self._process.leave_to_parent()
+        self._process = None
+        self._loaded.clear()
 
     def load(self, timeline: Timeline, *, run: str | None = None) -> str:
         """Load a timeline as a run, unless it is loaded, and return the name of the run.
@@ -79,19 +88,34 @@ class Session:
             if name not in self._loaded:
                 file = process.folder / "facts.pl"
                 write_run(timeline, file)
-                goal = f"runs:load_run({format_atom(name)}, {format_atom(str(file))}), Reply = ok"
+                atom = format_atom(name)
                 try:
-                    process.call(goal, LOAD_LIMIT)
+                    process.call(f"runs:load_run({atom}, {format_atom(str(file))}), Reply = ok", LOAD_LIMIT)
                 except ProcessLost:
                     self._lose(process)
                     raise
                 except InputError as error:
                     self._lose(process)
-                    raise InputError(f"the facts cannot be loaded, or a chronicle fails: {error}") from None
+                    raise InputError(f"the facts cannot be loaded: {error}") from None
+                self._add_rules(process, atom)
+                process.call(f"runs:finish_run({atom}), Reply = ok", LOAD_LIMIT)
                 file.unlink()
                 self._loaded.add(name)
                 weakref.finalize(timeline, self._forget, key, name)
             return name
+
+    def _add_rules(self, process: PrologProcess, run: str) -> None:
+        seconds = format_value(CHRONICLE_LIMIT)
+        for number, file in enumerate(self._chronicles):
+            try:
+                reply = process.call(f"rules:add_rules_to_run({number}, {run}, {seconds}, Reply)", LOAD_LIMIT)
+            except ProcessLost as lost:
+                self._lose(process)
+                limit = "time" if str(lost) == "time" else "memory"
+                raise GoalLimitError(f"chronicles, {file}: {limit} limit reached") from None
+            if reply != "ok":
+                self._lose(process)
+                raise rule_refusal(reply, file, limit=CHRONICLE_LIMIT)
 
     def ask(
         self, timeline: Timeline, goal: str, *, limit: int | None = None, time_limit: float = 10.0
@@ -111,9 +135,13 @@ class Session:
             else:
                 raise GoalLimitError(f"time limit of {time_limit:g} s reached: {shown(goal)}") from None
         status, _, body = reply.partition("\n")
-        if status != "ok":
+        if status not in ("ok", "cut"):
             raise refusal(status, body, goal, time_limit, timeline)
-        return _answers(body)
+        if status == "cut":
+            warnings.warn(
+                f"a value is too large or too deep to be told whole; ... stands for the rest: {shown(goal)}", Note, 3
+            )
+        return _answers(body, time.monotonic() + time_limit + GRACE, goal)
 
     def _reply(self, timeline: Timeline, goal: str, limit: int | None, time_limit: float) -> str:
         name = self._load(timeline)
@@ -135,19 +163,26 @@ class Session:
 
     def _running(self) -> PrologProcess:
         with self._lock:
-            if self._process is None or self._process.owner != os.getpid():
-                self._loaded.clear()
+            if self._process is None:
                 self._process = PrologProcess()
-                for file in self._chronicles:
-                    self._load_chronicles(self._process, file)
+                for number in range(len(self._chronicles)):
+                    self._load_chronicles(self._process, number)
             return self._process
 
-    def _load_chronicles(self, process: PrologProcess, file: Path) -> None:
+    def _load_chronicles(self, process: PrologProcess, number: int) -> None:
+        file = self._chronicles[number]
+        text = read_rules(file)
+        copy = process.folder / "rules.pl"
+        copy.write_text(text, encoding="utf-8")
         try:
-            process.call(f"chronicles:load_chronicles({format_atom(str(file))}), Reply = ok", LOAD_LIMIT)
-        except InputError as error:
+            reply = process.call(f"rules:add_rules({number}, {format_atom(str(copy))}, Reply)", LOAD_LIMIT)
+        except ProcessLost:
             self._lose(process)
-            raise InputError(f"chronicles, {file}: {error}") from None
+            raise GoalLimitError(f"chronicles, {file}: they cannot be read within time and memory") from None
+        copy.unlink()
+        if reply != "ok":
+            self._lose(process)
+            raise rule_refusal(reply, file, text=text)
 
     def _lose(self, process: PrologProcess) -> None:
         with self._lock:
@@ -161,13 +196,24 @@ class Session:
             if self._names.get(key) == name:
                 del self._names[key]
             process = self._process
-            if name not in self._loaded or process is None or process.owner != os.getpid():
+            if name not in self._loaded or process is None:
                 return
             self._loaded.discard(name)
             try:
                 process.call(f"runs:drop_run({format_atom(name)}), Reply = ok", GRACE)
             except ProcessLost:
                 self._lose(process)
+
+
+_sessions: weakref.WeakSet[Session] = weakref.WeakSet()
+
+
+def _begin_anew() -> None:
+    for session in list(_sessions):
+        session.begin_anew()
+
+
+os.register_at_fork(after_in_child=_begin_anew)
 
 
 @lru_cache(maxsize=1)
@@ -205,9 +251,14 @@ def _value(text: str) -> Value:
         raise GoalError(f"an answer that Python cannot hold (too deep, or no plain term): {text[:80]!r}") from error
 
 
-def _answers(body: str) -> list[dict[str, Value]]:
+def _answers(body: str, deadline: float, goal: str) -> list[dict[str, Value]]:
     header, *rows = body.split("\n")
     names = header.split("\t") if header else []
     if not names:
         return [{} for _ in rows]
-    return [dict(zip(names, map(_value, row.split("\t")), strict=True)) for row in rows]
+    answers: list[dict[str, Value]] = []
+    for row in rows:
+        if time.monotonic() > deadline:
+            raise GoalLimitError(f"time limit reached while {len(rows):,} answers were read: {shown(goal)}")
+        answers.append(dict(zip(names, map(_value, row.split("\t")), strict=True)))
+    return answers

@@ -1,11 +1,14 @@
 /*  Answers: a goal in text is read, checked, put in order, run within its limits, and answered in text.
 
-    A reply is lines: first "ok", or what went wrong; then one line for each distinct answer, with the
-    values of the variables separated by tabs, as terms that can be read back.
+    A reply is lines: first "ok" ("cut" where a value was too large or deep to be told whole), or what went wrong; then
+    one line for each distinct answer, with the values of the variables separated by tabs, as terms that can be read
+    back.
 */
 
 :- module(answers,
-          [ ask/5                       % +Run, +Text, +Limit, +Seconds, -Reply
+          [ ask/5,                      % +Run, +Text, +Limit, +Seconds, -Reply
+            failure/2,                  % +Error, -Lines
+            short_text/2                % +Term, -Text
           ]).
 :- use_module(library(time)).
 :- use_module(library(apply)).
@@ -28,10 +31,13 @@ ask(Run, Text, Limit, Seconds, Reply) :-
 answers(Run, Text, Limit, Seconds, Lines) :-
     read_goal(Text, Goal, Bindings),
     pairs(Bindings, Names, Values),
+    nb_setval(prolepsis_cut, "ok\n"),
+    nb_setval(prolepsis_told, 0),
     call_with_time_limit(Seconds, found(Run, Goal, Values, Limit, Answers)),
+    nb_getval(prolepsis_cut, Status),
     atomic_list_concat(Names, '\t', Header),
     atomic_list_concat([Header|Answers], '\n', Body),
-    Lines = ["ok\n", Body].
+    Lines = [Status, Body].
 
 found(Run, Goal0, Values, Limit, Answers) :-
     check_goal(Goal0),
@@ -50,20 +56,117 @@ pairs([Name=Value|More], [Name|Names], [Value|Values]) :-
 %   Unbound variables of one answer are named _1, _2 ... so that equal answers have equal texts.
 
 value_texts(Values0, Text) :-
-    copy_term(Values0, Values, _),
-    (   acyclic_term(Values)
-    ->  Finite = Values
-    ;   maplist(finite, Values, Finite)
+    copy_term(Values0, Values1, _),
+    (   acyclic_term(Values1)
+    ->  Values2 = Values1
+    ;   maplist(finite, Values1, Values2)
     ),
-    term_variables(Finite, Variables),
+    most_characters(Most),
+    (   size_abstract_term(100, Values2, Abstract),
+        Abstract =@= Values2,
+        written(Values2, Text),
+        string_length(Text, Length),
+        Length =< Most
+    ->  true
+    ;   cut(Values2, Values),
+        written(Values, Text)
+    ),
+    count(Text).
+
+written(Values, Text) :-
+    term_variables(Values, Variables),
     numbered(Variables, 1, Names),
-    with_output_to(string(Text), write_values(Finite, Names)).
+    with_output_to(string(Text), write_values(Values, Names)).
 
 finite(Value, Finite) :-
     (   acyclic_term(Value)
     ->  Finite = Value
     ;   '$factorize_term'(Value, Skeleton, Substitutions),
         Finite = @(Skeleton, Substitutions)
+    ).
+
+%   How much of an answer is told: names and numbers, how deep they stand, and the characters of one name; and of all
+%   answers, characters. A term that shares its parts may be far larger when it is written than in memory.
+
+most_parts(200_000).
+most_deep(100).
+most_characters(1_000_000).
+most_told(50_000_000).
+
+%!  cut(+Values, -Cut) is det.
+%
+%   Cut is Values where what is too large or too deep has become the atom ... .
+
+cut(Values, Cut) :-
+    most_parts(Most),
+    cut_list(Values, Most, _, 0, Cut).
+
+cut_term(Term, Left0, Left, Depth, Cut) :-
+    most_deep(Deepest),
+    (   ( Left0 =< 0 ; Depth > Deepest )
+    ->  Left = Left0,
+        cut_here(Cut)
+    ;   compound(Term),
+        Term = [_|_]
+    ->  Next is Depth+1,
+        cut_list(Term, Left0, Left, Next, Cut)
+    ;   compound(Term)
+    ->  compound_name_arity(Term, Name, Arity),
+        Left1 is Left0-1-Arity,
+        (   Left1 < 0
+        ->  Left = Left1,
+            cut_here(Cut)
+        ;   compound_name_arity(Cut, Name, Arity),
+            Next is Depth+1,
+            cut_arguments(1, Arity, Term, Left1, Left, Next, Cut)
+        )
+    ;   too_long(Term)
+    ->  Left is Left0-1,
+        cut_here(Cut)
+    ;   Left is Left0-1,
+        Cut = Term
+    ).
+
+cut_arguments(N, Arity, _, Left0, Left, _, _), N > Arity => Left = Left0.
+cut_arguments(N, Arity, Term, Left0, Left, Depth, Cut) =>
+    arg(N, Term, Argument),
+    arg(N, Cut, CutArgument),
+    cut_term(Argument, Left0, Left1, Depth, CutArgument),
+    Next is N+1,
+    cut_arguments(Next, Arity, Term, Left1, Left, Depth, Cut).
+
+cut_list([Item|Items], Left0, Left, Depth, Cut), Left0 > 0 =>
+    Cut = [CutItem|More],
+    Left1 is Left0-1,
+    cut_term(Item, Left1, Left2, Depth, CutItem),
+    cut_list(Items, Left2, Left, Depth, More).
+cut_list(Rest, Left0, Left, _, Cut), Rest == [] => Cut = [], Left = Left0.
+cut_list([_|_], Left0, Left, _, Cut) => Cut = [Rest], Left = Left0, cut_here(Rest).
+cut_list(Rest, Left0, Left, Depth, Cut) => cut_term(Rest, Left0, Left, Depth, Cut).
+
+cut_here('...') :-
+    nb_setval(prolepsis_cut, "cut\n").
+
+too_long(Term) :-
+    most_characters(Most),
+    (   atom(Term)
+    ->  atom_length(Term, Length)
+    ;   string(Term)
+    ->  string_length(Term, Length)
+    ;   integer(Term)
+    ->  Length is ceiling(msb(abs(Term)+1)/3)
+    ),
+    Length > Most.
+
+count(Text) :-
+    nb_getval(prolepsis_told, Told0),
+    string_length(Text, Length),
+    Told is Told0+Length,
+    nb_setval(prolepsis_told, Told),
+    most_told(Most),
+    (   Told =< Most
+    ->  true
+    ;   throw(refused(too_much(Most)))
     ).
 
 numbered([], _, []).
@@ -110,7 +213,14 @@ message_to_string(Error, Text) :-
     message_to_codes_(Error, Text),
     !.
 message_to_string(Error, Text) :-
-    format(string(Text), '~q', [Error]).
+    short_text(Error, Text).
+
+%!  short_text(+Term, -Text:string) is det.
+
+short_text(Term, Text) :-
+    term_variables(Term, Variables),
+    maplist(=('$VAR'('_')), Variables),
+    format(string(Text), '~W', [Term, [quoted(true), numbervars(true), max_depth(20)]]).
 
 message_to_codes_(error(Formal, _), Text) :-
     '$messages':translate_message(error(Formal, _), Lines, []),
@@ -129,7 +239,6 @@ refusal(not_permitted(Goal), [Kind, Text]) :-
     ->  ( Goal = _:_ -> Kind = "module\n" ; Kind = "permission\n" )
     ;   Kind = "goal\n"
     ),
-    term_variables(Goal, Variables),
-    maplist(=('$VAR'('_')), Variables),
-    format(string(Text), '~W', [Goal, [quoted(true), numbervars(true), max_depth(20)]]).
+    short_text(Goal, Text).
 refusal(unbound_goal, ["unbound"]).
+refusal(too_much(Most), ["much\n", Most]).

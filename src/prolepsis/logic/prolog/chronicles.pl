@@ -1,20 +1,19 @@
 /*  Chronicles: complex events, each a rule over grounded fluents and events.
 
     chronicle(Event, Start-End) is one rule. It may use whatever a query may use, and the chronicles
-    before it. Its answers are ordinary events of the run. An empty interval is made one tick long.
+    before it. Its answers are ordinary events of the run. An empty interval is made one tick long. Users' own
+    are in rules.pl.
 */
 
 :- module(chronicles,
           [ chronicle/2,                % ?Event, -Interval
-            chronicle_name/2,           % -Name, -Arity
-            load_chronicles/1           % +File
+            chronicle_name/2            % -Name, -Arity
           ]).
 :- use_module(library(lists)).
 :- use_module(timeline).
 :- use_module(allen).
 :- use_module(knowledge).
 
-:- multifile chronicle/2.
 :- dynamic chronicle/2.
 
 %!  chronicle_name(-Name, -Arity) is nondet.
@@ -25,21 +24,6 @@ chronicle_name(Name, Arity) :-
     findall(N/A, ( clause(chronicle(Event, _), _), functor(Event, N, A) ), All),
     list_to_set(All, Names),
     member(Name/Arity, Names).
-
-%!  load_chronicles(+File) is det.
-%
-%   Add the chronicles in File.
-%
-%   @error syntax_error(_): loading alone would print it, and leave the rule out
-
-load_chronicles(File) :-
-    setup_call_cleanup(open(File, read, In, [encoding(utf8)]),
-                       ( repeat,
-                         read_term(In, Term, [module(chronicles), syntax_errors(error)]),
-                         Term == end_of_file,
-                         ! ),
-                       close(In)),
-    load_files(chronicles:File, []).
 
 %!  slack(-Seconds) is det.
 %

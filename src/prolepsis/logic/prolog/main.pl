@@ -1,4 +1,7 @@
-/*  What the Prolog process loads: the modules of this folder, and the server that Python talks to. */
+/*  What the Prolog process loads: the modules of this folder, and the server that Python talks to.
+
+    Python holds the other end of its standard input, and writes nothing: when that end closes, Python is gone.
+*/
 
 :- set_prolog_flag(verbose_load, silent).
 % What libraries need is loaded now, not by the first thread that meets it: two at once get in each other's way.
@@ -8,4 +11,17 @@
 :- style_check(+singleton).
 :- use_module(runs).
 :- use_module(answers).
+:- use_module(rules).
 :- set_prolog_flag(autoload, true).
+
+%!  serve is det.
+%
+%   Answer Python on a socket, and end when Python does.
+
+serve :-
+    thread_create(end_with_python, _, [detached(true)]),
+    mqi_start.
+
+end_with_python :-
+    catch(peek_char(user_input, _), error(_, _), true),
+    halt(1).

@@ -15,6 +15,8 @@
 
 :- module(runs,
           [ load_run/2,                 % +Run, +File
+            add_chronicles/3,           % +Run, +Source, :Finder
+            finish_run/1,               % +Run
             drop_run/1,                 % +Run
             known_run/2,                % ?Run, -Module
             current_run/1,              % -Module
@@ -24,10 +26,11 @@
             flat/4                      % +Term, -Type, -First, -Second
           ]).
 :- use_module(library(error)).
+:- use_module(library(aggregate)).
 :- use_module(library(lists)).
 :- use_module(chronicles).
 
-:- meta_predicate with_run(+, 0).
+:- meta_predicate with_run(+, 0), add_chronicles(+, +, 4).
 :- dynamic known_run/2.
 
 % Tables of a run: those whose clauses come from the file, and those that follow from them.
@@ -45,7 +48,8 @@ table(relation/1).
 
 %!  load_run(+Run:atom, +File) is det.
 %
-%   Read the facts of Run from File, replacing a run of that name.
+%   Read the facts of Run from File, replacing a run of that name, and work out our chronicles. Others may be added
+%   until finish_run/1.
 
 load_run(Run, File) :-
     must_be(atom, Run),
@@ -53,11 +57,21 @@ load_run(Run, File) :-
     atom_concat('run ', Run, Module),
     forall(table(Table), dynamic(Module:Table)),
     setup_call_cleanup(open(File, read, In, [encoding(utf8)]),
-                       read_rows(In, Module, 0, Last),
+                       read_rows(In, Module, 0, _),
                        close(In)),
     index_spans(Module),
     assertz(known_run(Run, Module)),
-    with_run(Run, add_chronicles(Module, Last)),
+    add_chronicles(Run, chronicles, all).
+
+all(_, Goal, Template, Found) :-
+    findall(Template, Goal, Found).
+
+%!  finish_run(+Run) is det.
+%
+%   Make the facts of Run static: nothing changes them any more.
+
+finish_run(Run) :-
+    known_run(Run, Module),
     forall(( table(Table), make_head(Table, Head), \+ \+ clause(Module:Head, true) ),
            compile_predicates([Module:Table])).
 
@@ -122,12 +136,20 @@ index_spans(Module) :-
     retractall(Module:span(_,_)),
     forall(member(S-E, Distinct), assertz(Module:span(S,E))).
 
-%   Chronicles are worked out once, here, and kept as events, so that every predicate finds them.
-%   Those of one file see the grounded facts and the chronicles before them.
+%!  add_chronicles(+Run, +Source, :Finder) is det.
+%
+%   Work out the chronicles of the module Source, each once, and keep them as events, so that every predicate finds
+%   them. They see the grounded facts and the chronicles before them. Finder is called with an event, a goal, a template
+%   and what it finds of that.
 
-add_chronicles(Module, Last) :-
-    findall(Name/Arity, chronicle_name(Name, Arity), Names),
-    foldl_chronicles(Names, Module, Last, End),
+add_chronicles(Run, Source, Finder) :-
+    known_run(Run, Module),
+    findall(Name/Arity,
+            ( clause(Source:chronicle(Event, _), _), functor(Event, Name, Arity) ),
+            Names0),
+    list_to_set(Names0, Names),
+    aggregate_all(count, ( Module:fluent(_,_,_,_,_,_,_) ; Module:event(_,_,_,_,_,_,_) ), Last),
+    with_run(Run, foldl_chronicles(Names, Source, Finder, Module, Last, End)),
     (   End > Last
     ->  index_spans(Module),
         sort_events(Module)
@@ -147,18 +169,18 @@ table_clause(Module, Table, Head) :-
     make_head(Table, Head),
     Module:Head.
 
-foldl_chronicles([], _, Id, Id).
-foldl_chronicles([Name/Arity|Names], Module, Id0, Id) :-
+foldl_chronicles([], _, _, _, Id, Id).
+foldl_chronicles([Name/Arity|Names], Source, Finder, Module, Id0, Id) :-
     functor(Event, Name, Arity),
     Module:tick(Tick),
-    findall(occurrence(S, E, Event), ( chronicle(Event, S-E0), E is max(E0, S+Tick) ), Found),
+    call(Finder, Event, ( Source:chronicle(Event, S-E0), E is max(E0, S+Tick) ), occurrence(S, E, Event), Found),
     sort(Found, Distinct),
     (   Distinct == []
     ->  Id1 = Id0
     ;   add_type(Module, Name, event, Arity),
         assert_occurrences(Distinct, Module, Id0, Id1)
     ),
-    foldl_chronicles(Names, Module, Id1, Id).
+    foldl_chronicles(Names, Source, Finder, Module, Id1, Id).
 
 assert_occurrences([], _, Id, Id).
 assert_occurrences([occurrence(S, E, Event)|More], Module, Id0, Id) :-

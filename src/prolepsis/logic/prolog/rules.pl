@@ -1,0 +1,156 @@
+/*  Rules of a user's own: a file of chronicles is read as data, checked as goals are, and run within limits.
+
+    A file holds clauses chronicle(Event, Start-End) :- Goal, and those of helpers that only it sees. Nothing in it is
+    executed when it is read. Each file is a module of its own, so that no helper meets one of another file, or ours.
+*/
+
+:- module(rules,
+          [ add_rules/3,                % +Number, +File, -Reply
+            add_rules_to_run/4          % +Number, +Run, +Seconds, -Reply
+          ]).
+:- use_module(library(apply)).
+:- use_module(library(lists)).
+:- use_module(library(time)).
+:- use_module(library(solution_sequences)).
+:- use_module(answers).
+:- use_module(guard).
+:- use_module(query).
+:- use_module(runs).
+
+:- dynamic rules_module/2.              % ?Number, ?Module
+
+%   No file has more clauses, and no chronicle more answers.
+
+most_clauses(10_000).
+most_answers(100_000).
+
+%!  add_rules(+Number, +File, -Reply:string) is det.
+%
+%   Read the rules in File as those of Number. Reply is "ok", or what is wrong: its kind, the line of the rule (of a
+%   syntax error, the character), and what it is about.
+
+add_rules(Number, File, Reply) :-
+    catch(( read_rules(File, Rules),
+            check_rules(Rules),
+            keep_rules(Number, Rules),
+            Lines = ["ok"] ),
+          Error,
+          failure_at(Error, Lines)),
+    atomics_to_string(Lines, Reply).
+
+read_rules(File, Rules) :-
+    setup_call_cleanup(open(File, read, In, [encoding(utf8)]),
+                       read_rules(In, 0, Rules),
+                       close(In)).
+
+read_rules(In, Count, Rules) :-
+    read_data(In, Term, [term_position(Position)]),
+    (   Term == end_of_file
+    ->  Rules = []
+    ;   stream_position_data(line_count, Position, Line),
+        most_clauses(Most),
+        (   Count < Most
+        ->  true
+        ;   throw(refused_at(Line, too_many))
+        ),
+        Rules = [Line-Term|More],
+        Next is Count+1,
+        read_rules(In, Next, More)
+    ).
+
+check_rules(Rules) :-
+    maplist(check_head, Rules, Names),
+    (   memberchk(chronicle/2, Names)
+    ->  true
+    ;   throw(refused_at(1, no_chronicle))
+    ),
+    sort(Names, Distinct),
+    exclude(==(chronicle/2), Distinct, Helpers),
+    forall(member(Line-Term, Rules),
+           ( parts(Term, _, Body),
+             catch(check_body(Body, Helpers), refused(Reason), throw(refused_at(Line, Reason))) )).
+
+parts((Head :- Body), Head, Body) :- !.
+parts(Head, Head, true).
+
+check_head(Line-Term, Name/Arity) :-
+    parts_checked(Term, Line, Head),
+    functor(Head, Name, Arity),
+    (   Head = chronicle(Event, _)
+    ->  (   callable(Event),
+            Event \= _:_
+        ->  true
+        ;   throw(refused_at(Line, event(Event)))
+        )
+    ;   functor(General, Name, Arity),
+        ( allowed(Name/Arity) ; exists(General) )
+    ->  throw(refused_at(Line, taken(Name/Arity)))
+    ;   true
+    ).
+
+parts_checked(Term, Line, Head) :-
+    (   callable(Term),
+        acyclic_term(Term),
+        \+ ( compound(Term), functor(Term, Name, _), memberchk(Name, [(:-), (?-), (-->), (=>)]), Term \= (_ :- _) ),
+        parts(Term, Head, _),
+        callable(Head),
+        Head \= _:_
+    ->  true
+    ;   throw(refused_at(Line, no_rule(Term)))
+    ).
+
+keep_rules(Number, Rules) :-
+    atom_concat('rules ', Number, Module),
+    set_module(Module:base(query)),
+    forall(member(_-Term, Rules),
+           ( parts(Term, Head, Body),
+             functor(Head, Name, Arity),
+             dynamic(Module:Name/Arity),
+             assertz(Module:(Head :- Body)) )),
+    assertz(rules_module(Number, Module)).
+
+%!  add_rules_to_run(+Number, +Run, +Seconds, -Reply:string) is det.
+%
+%   Work out the chronicles of Number in Run, each in at most Seconds, and keep them as events.
+
+add_rules_to_run(Number, Run, Seconds, Reply) :-
+    rules_module(Number, Module),
+    catch(( add_chronicles(Run, Module, occurrences(Seconds)),
+            Lines = ["ok"] ),
+          Error,
+          failure_at(Error, Lines)),
+    atomics_to_string(Lines, Reply).
+
+%   occurrences(+Seconds, +Event, :Goal, +Template, -Found): what add_chronicles/3 calls.
+
+occurrences(Seconds, Event, Goal, Template, Found) :-
+    functor(Event, Name, Arity),
+    most_answers(Most),
+    catch(call_with_time_limit(Seconds, findall(Template, limit(Most, Goal), Found)),
+          Error,
+          throw(failed(Name/Arity, Error))),
+    (   length(Found, Most)
+    ->  throw(failed(Name/Arity, too_many_answers))
+    ;   member(Wrong, Found),
+        \+ ( ground(Wrong), Wrong = occurrence(S, E, _), number(S), number(E) )
+    ->  throw(failed(Name/Arity, open_answer))
+    ;   true
+    ).
+
+%!  failure_at(+Error, -Lines) is det.
+
+failure_at(refused_at(Line, too_many), ["many\n", Line]) :- !.
+failure_at(refused_at(Line, no_chronicle), ["none\n", Line]) :- !.
+failure_at(refused_at(Line, no_rule(Term)), ["rule\n", Line, "\n", Text]) :- !, short_text(Term, Text).
+failure_at(refused_at(Line, event(Term)), ["head\n", Line, "\n", Text]) :- !, short_text(Term, Text).
+failure_at(refused_at(Line, taken(PI)), ["taken\n", Line, "\n", Text]) :- !, short_text(PI, Text).
+failure_at(refused_at(Line, Reason), ["goal\n", Line, "\n"|Lines]) :- !, failure(refused(Reason), Lines).
+failure_at(refused(syntax(Character, Message)), ["syntax\n", Character, "\n", Message]) :- !.
+failure_at(failed(PI, too_many_answers), ["answers\n", Text, "\n", Most]) :-
+    !,
+    short_text(PI, Text),
+    most_answers(Most).
+failure_at(failed(PI, open_answer), ["open\n", Text]) :- !, short_text(PI, Text).
+failure_at(failed(PI, error(instantiation_error, _)), ["open\n", Text]) :- !, short_text(PI, Text).
+failure_at(failed(PI, Error), ["failed\n", Text, "\n"|Lines]) :- !, short_text(PI, Text), failure(Error, Lines).
+failure_at(Error, ["file\n"|Lines]) :- failure(Error, Lines).

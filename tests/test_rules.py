@@ -1,0 +1,119 @@
+"""Files of chronicles from anybody: read as data, checked as goals are, apart from ours, and within limits."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from prolepsis.errors import GoalLimitError, InputError
+from prolepsis.logic import session as sessions
+from prolepsis.logic.session import Session
+from prolepsis.terms import Term
+from prolepsis.timeline import Fact, Timeline, make_timeline
+
+HEAD = "chronicle(shaking(X), T) :- "
+
+
+def timeline() -> Timeline:
+    facts = [
+        Fact(kind="fluent", type="attached", args=("hand1", "egg1"), start=0.0, end=1.0),
+        Fact(kind="event", type="falling", args=("egg1",), start=1.0, end=1.4),
+        Fact(kind="event", type="moving", args=("egg1",), start=0.5, end=1.4),
+    ]
+    return make_timeline(facts, dt=0.001, duration=2.0)
+
+
+def asked(tmp_path: Path, *rules: str, goal: str = "occurs(E, T)") -> list[object]:
+    files = [tmp_path / f"rules{number}.pl" for number in range(len(rules))]
+    for file, text in zip(files, rules, strict=True):
+        file.write_text(text)
+    session = Session(chronicles=tuple(files))
+    try:
+        return [answer["E"] for answer in session.ask(timeline(), goal)]
+    finally:
+        session.close()
+
+
+@pytest.mark.parametrize(
+    ("rules", "message"),
+    [
+        (HEAD + "holds(X, T.", "rules0.pl, line 1: syntax error"),
+        ("% words\n\n" + HEAD + "holds(X, T),.", "rules0.pl, line 3: syntax error"),
+        (HEAD + "hols(X, T).", "line 1: unknown predicate hols/2; did you mean holds/2"),
+        (":- initialization(shell('touch /tmp/x')).", "line 1: no rule: :-initialization.*nothing in it is executed"),
+        ("?- shell(x).", "line 1: no rule"),
+        ("a --> b.", "line 1: no rule"),
+        ("chronicle(X, T) => true.", "line 1: no rule"),
+        ("X :- true.", "line 1: no rule"),
+        ("3.", "line 1: no rule: 3"),
+        ("user:portray(X) :- shell(X).", "line 1: no rule: user:portray"),
+        ("chronicle(X, T) :- holds(X, T).", "line 1: no event"),
+        ("chronicle(3, T) :- holds(X, T).", "line 1: no event: 3"),
+        ("chronicle(a:b, T) :- holds(X, T).", "line 1: no event: a:b"),
+        (HEAD + "shell(x).", r"line 1: not permitted: shell\(x\)"),
+        (HEAD + "\n  holds(X, T),\n  format(atom(_), '~@', [halt]).", "line 1: not permitted: format"),
+        (HEAD + "aid(G, T), call(G).\naid(halt, T).", "line 1: not permitted: a goal that is known only when"),
+        (HEAD + "aided(T).\naided(T) :- assertz(a).", "line 2: not permitted: assertz"),
+        (HEAD + "lists:member(X, [a]).", "line 1: not permitted: lists:member"),
+        ("holds(X, T) :- true.", "line 1: holds/2 exists already; give the helper another name"),
+        ("append(X, Y, Z) :- true.", "line 1: append/3 exists already"),
+        ("halt.", "line 1: halt/0 exists already"),
+        ("shell(X) :- true.", "line 1: shell/1 exists already"),
+        ("helper(X) :- true.", "holds no chronicle; a file holds rules"),
+        ("", "holds no chronicle"),
+        (HEAD + "true.", "chronicle shaking/1 needs a value before it is known, or leaves"),
+        ("chronicle(shaking(a), 1-b).", "chronicle shaking/1 fails"),
+        (HEAD + "X > 1, T = 0-1.", "chronicle shaking/1 needs a value"),
+        ("chronicle(shaking(X), 0-1) :- between(1, inf, X).", "chronicle shaking/1 has 100,000 answers or more"),
+        ("chronicle(shaking(L), 0-1) :- numlist(1, 100000000, L).", "chronicle shaking/1: memory limit"),
+    ],
+)
+def test_a_file_of_chronicles_that_is_wrong_is_refused(tmp_path: Path, rules: str, message: str) -> None:
+    with pytest.raises(InputError, match=message) as refused:
+        asked(tmp_path, rules)
+    assert "\n" not in str(refused.value) and len(str(refused.value)) < 300 + len(str(tmp_path))
+
+
+def test_a_chronicle_that_does_not_end_is_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sessions, "CHRONICLE_LIMIT", 0.5)
+    with pytest.raises(GoalLimitError, match=r"chronicle shaking/1: time limit of 0\.5 s reached"):
+        asked(tmp_path, HEAD + "repeat, fail.")
+
+
+def test_helpers_stay_in_their_file(tmp_path: Path) -> None:
+    ours = asked(tmp_path, "chronicle(x(1), 0-1).", goal="occurs(E, _), E = dropping(_, _)")
+    assert ours == [Term("dropping", ("hand1", "egg1"))]
+    # A helper of the name of one of ours, and two files with a helper of the same name.
+    first = "chronicle(first(N), 0-1) :- hold(N, a, b, c, d).\nhold(1, _, _, _, _)."
+    second = "chronicle(second(N), 0-1) :- hold(N, a, b, c, d).\nhold(2, _, _, _, _)."
+    events = asked(tmp_path, first, second, goal="occurs(E, _), \\+ E = falling(_), \\+ E = moving(_)")
+    assert set(map(str, events)) == {
+        str(term) for term in (Term("first", (1,)), Term("second", (2,)), Term("dropping", ("hand1", "egg1")))
+    }
+
+
+def test_a_later_file_sees_the_events_of_an_earlier_one(tmp_path: Path) -> None:
+    first = "chronicle(first(X), T) :- occurs(falling(X), T)."
+    second = "chronicle(second(X), T) :- occurs(first(X), T)."
+    assert asked(tmp_path, first, second, goal="occurs(E, _), E = second(_)") == [Term("second", ("egg1",))]
+    assert asked(tmp_path, second, first, goal="occurs(E, _), E = second(_)") == []
+
+
+@pytest.mark.parametrize("kind", ["missing", "folder", "fifo", "long", "latin"])
+def test_what_is_no_file_of_rules_is_refused(tmp_path: Path, kind: str) -> None:
+    file = tmp_path / "rules.pl"
+    expected = {"missing": "No such file", "folder": "is no file", "fifo": "is no file", "long": "has 1,000,001 bytes"}
+    if kind == "folder":
+        file.mkdir()
+    elif kind == "fifo":
+        os.mkfifo(file)
+    elif kind == "long":
+        file.write_bytes(b" " * 1_000_001)
+    elif kind == "latin":
+        file.write_bytes(b"% \xff")
+    session = Session(chronicles=(file,))
+    with pytest.raises(InputError, match=expected.get(kind, "is no UTF-8 at byte 2")):
+        session.ask(timeline(), "true")
+    session.close()
