@@ -1,80 +1,153 @@
-"""The command line: eight commands, their help, and what becomes of an error."""
+"""The command line: it runs a command, and says in one line and an exit status what became of it.
+
+Everything else is imported within ``main``, so that an interruption while it loads is told like any other.
+"""
 
 from __future__ import annotations
 
-import argparse
 import os
 import sys
 from collections.abc import Sequence
-from importlib.metadata import version
-from typing import NoReturn
+from typing import Any, TextIO
 
-from prolepsis.commands import ask, catalogue, doctor, project, render, sweep, timeline
-from prolepsis.errors import InputError, InvalidSimulationError, MissingToolError
-
-ANSWERED, NO, BAD_INPUT, INVALID = 0, 1, 2, 3
+ANSWERED, NO, BAD_INPUT, INVALID, UNEXPECTED = 0, 1, 2, 3, 4
 INTERRUPTED = 130
 """As shells report a process that was ended by Ctrl-C."""
-
-DESCRIPTION = """\
-Ask what happens if a robot does this: prolepsis simulates the action in detail and answers in symbols.
-
-  prolepsis project examples/dropped_egg.toml --out out/drop
-  prolepsis timeline out/drop
-  prolepsis ask out/drop 'holds(broken(X), T)'
-"""
-EPILOGUE = """\
-All quantities are in SI units (m, kg, s, N) unless a unit is written: 25, '25 N', '0.4 m'.
-Exit status: 0 answered, 1 no (the goal has no answer), 2 bad input, 3 the simulation was invalid.
-`prolepsis COMMAND --help` shows an example of each.
-"""
-
-
-class _Parser(argparse.ArgumentParser):
-    """Reports a wrong command line in one line, as every other error."""
-
-    def error(self, message: str) -> NoReturn:
-        print(f"{self.prog}: {message}; see {self.prog} --help", file=sys.stderr)
-        sys.exit(BAD_INPUT)
-
-
-def parser() -> argparse.ArgumentParser:
-    """Return the parser of the whole command line."""
-    top = _Parser(
-        prog="prolepsis",
-        description=DESCRIPTION,
-        epilog=EPILOGUE,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    top.add_argument("--version", action="version", version=f"prolepsis {version('prolepsis')}")
-    commands = top.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in (project, ask, timeline, sweep, render, catalogue, doctor):
-        command.add_to(commands)
-    return top
+TRACEBACK = "--traceback"
+"""Option of every command."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line and return its exit status."""
-    given = parser().parse_args(arguments)
+    """Run the command line and return its exit status; ``arguments`` are those of the process if None."""
+    given = sys.argv[1:] if arguments is None else arguments
     try:
-        status: int = given.run(given)
-        sys.stdout.flush()
-        return status
+        status = _answer(given)
+    except KeyboardInterrupt:
+        status = _tell("interrupted; nothing was written", INTERRUPTED)
+    if arguments is None:
+        _let_end()
+    return status
+
+
+def _answer(given: Sequence[str]) -> int:
+    """Run a command with a standard output that may fail."""
+    stream = _standard_output()
+    if stream is None:
+        return _tell("standard output is closed, so there is nowhere to answer", BAD_INPUT)
+    sys.stdout = output = _Output(stream)
+    try:
+        status = _run(given)
+    except SystemExit:  # The parser has shown the help, or refused the command line.
+        if output.problem_at_end() is None:
+            raise
+        status = ANSWERED
+    finally:
+        sys.stdout = stream
+    problem = output.problem_at_end()
+    return status if problem is None else _tell(f"standard output: {problem.strerror}", BAD_INPUT)
+
+
+def _run(given: Sequence[str]) -> int:
+    from prolepsis.errors import InputError, InvalidSimulationError, MissingToolError
+
+    try:
+        from prolepsis.commands.parser import parser
+
+        read = parser().parse_args(given)
+        return read.run(read)
     except InvalidSimulationError as error:
         return _tell(error, INVALID)
     except (InputError, MissingToolError) as error:
         return _tell(error, BAD_INPUT)
-    except BrokenPipeError:
-        # The reader, such as `head`, has seen enough; Python would complain once more when it ends.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return ANSWERED
     except OSError as error:
-        return _tell(error, BAD_INPUT)
-    except KeyboardInterrupt:
-        return _tell("interrupted; nothing was written", INTERRUPTED)
+        if error.strerror is None or isinstance(error, BrokenPipeError):
+            return _fail(error, given)
+        names = [os.fsdecode(name) for name in (error.filename, error.filename2) if isinstance(name, str | bytes)]
+        return _tell(": ".join([*names, error.strerror]), BAD_INPUT)
+    except (KeyboardInterrupt, SystemExit, GeneratorExit):
+        raise
+    except BaseException as error:  # Rust's panics, for one, are no Exception.
+        return _fail(error, given)
+
+
+def _fail(error: BaseException, given: Sequence[str]) -> int:
+    """Tell of an error that nobody foresaw."""
+    if TRACEBACK in given:
+        import traceback
+
+        traceback.print_exception(error)
+        return UNEXPECTED
+    from prolepsis.errors import error_line
+
+    words = f"{type(error).__name__}: {error_line(error, 160)}".removesuffix(": ")
+    return _tell(f"unexpected failure: {words}; the same command with {TRACEBACK} shows where", UNEXPECTED)
 
 
 def _tell(error: object, status: int) -> int:
-    line = " ".join(str(error).split())
-    print(f"prolepsis: {line}", file=sys.stderr)
+    from prolepsis.errors import error_line
+
+    line = f"prolepsis: {error}"
+    if encoding := getattr(sys.stderr, "encoding", None):
+        # What cannot be written is written longer.
+        line = line.encode(encoding, "backslashreplace").decode(encoding)
+    print(error_line(line), file=sys.stderr)
     return status
+
+
+class _Output:
+    """Standard output of a command: when it cannot be written the command goes on, and the reason is kept."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+        self._problem: OSError | None = None
+
+    def write(self, text: str) -> int:
+        """Write a text."""
+        try:
+            self._stream.write(text)
+        except OSError as problem:
+            self._give_up(problem)
+        return len(text)
+
+    def flush(self) -> None:
+        """Write what is left."""
+        try:
+            self._stream.flush()
+        except OSError as problem:
+            self._give_up(problem)
+
+    def problem_at_end(self) -> OSError | None:
+        """Write what is left and return what went wrong; that a reader such as `head` has gone is no problem."""
+        self.flush()
+        return None if isinstance(self._problem, BrokenPipeError) else self._problem
+
+    def _give_up(self, problem: OSError) -> None:
+        self._problem = self._problem or problem
+        # Python would complain once more when it ends.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), self._stream.fileno())
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+
+def _standard_output() -> TextIO | None:
+    """Return standard output if it is open; no other file takes the place of a closed stream."""
+    output: TextIO | None = sys.stdout
+    errors: TextIO | None = sys.stderr
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)
+    if errors is None:
+        sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
+    if output is not None and callable(reconfigure := getattr(output, "reconfigure", None)):
+        reconfigure(errors="backslashreplace")
+    return output
+
+
+def _let_end() -> None:
+    """Let the process end undisturbed: all is said, and Ctrl-C would only show how Python takes itself apart."""
+    import signal
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -15,12 +15,52 @@
      │    └── LogError             a log folder that is truncated, altered or not one
      ├── InvalidSimulationError    the physics went unstable; the run is no answer (exit status 3)
      └── MissingToolError          something outside Python is absent; how to get it (exit status 2)
+
+A message is one line: what was wrong, where, and what is allowed. ``brief`` shortens a value that it shows.
 """
 
 from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable
+
+LONGEST_LINE = 300
+"""Most characters of a line that tells of an error; more would not be read."""
+LONGEST_VALUE = 60
+"""Most characters of a value that is shown in one."""
+LONGEST_LIST = 140
+"""Most characters of a list of what is known."""
+
+
+def brief(value: object, most: int = LONGEST_VALUE) -> str:
+    """Return a value as a message shows it: in printable characters, and shortened in the middle if it is long."""
+    try:
+        text = str(value)
+    except ValueError:
+        return "an integer of thousands of digits"  # Python writes none that is longer than 4300
+    if len(text) > 2 * most:
+        text = text[:most] + " ... " + text[-most:]
+    text = "".join(each if each.isprintable() else ascii(each)[1:-1] for each in text)
+    if len(text) <= most:
+        return text
+    left = (most - 5) // 2
+    return text[:left] + " ... " + text[left + 5 - most :]
+
+
+def brief_list(names: Iterable[str], most: int = LONGEST_LIST) -> str:
+    """Return names for a message, in their order and as many as fit; ``none`` if there are none."""
+    shown: list[str] = []
+    for name in map(brief, names):
+        most -= len(name) + 2
+        if most < 0 and shown:
+            return ", ".join([*shown, "..."])
+        shown.append(name)
+    return ", ".join(shown) or "none"
+
+
+def error_line(error: object, most: int = LONGEST_LINE) -> str:
+    """Return an error as one line of at most ``most`` characters."""
+    return brief(" ".join(str(error).split()), most)
 
 
 class ProlepsisError(Exception):
@@ -45,11 +85,10 @@ class UnknownNameError(InputError):
             where: Where it was given, such as a file and line.
         """
         names = sorted(known)
-        near = difflib.get_close_matches(name, names, n=1)
-        hint = f"; did you mean {near[0]!r}?" if near else ""
+        near = difflib.get_close_matches(name, names, n=1) if len(name) <= LONGEST_VALUE else []
+        hint = f"; did you mean {brief(repr(near[0]))}?" if near else ""
         place = f"{where}: " if where else ""
-        shown = ", ".join(names[:40]) + (", ..." if len(names) > 40 else "") or "none"
-        return cls(f"{place}no {what} named {name!r}{hint}; known: {shown}")
+        return cls(f"{place}no {what} named {brief(repr(name))}{hint}; known: {brief_list(names)}")
 
 
 class KnowledgeError(InputError):

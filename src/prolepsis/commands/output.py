@@ -29,6 +29,7 @@ def add_command(commands: Any, name: str, doc: str, example: str, run: Callable[
         epilog=f"example:\n{example.rstrip()}",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
+    parser.add_argument("--traceback", action="store_true", help="show where an unexpected failure happened")
     parser.set_defaults(run=run)
     return parser
 
