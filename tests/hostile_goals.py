@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 EFFECTS = (
-    "shell('touch {mark}')",
-    "shell('touch {mark}', _)",
-    "system:shell('touch {mark}')",
-    "process_create(path(touch), ['{mark}'], [])",
-    "exec(touch('{mark}'))",
+    "shell('/usr/bin/touch {mark}')",
+    "shell('/usr/bin/touch {mark}', _)",
+    "system:shell('/usr/bin/touch {mark}')",
+    "process:process_create('/usr/bin/touch', ['{mark}'], [])",
+    "exec('/usr/bin/touch'('{mark}'))",
     "fork(_)",
     "open('{mark}', write, _)",
     "open('{mark}', append, S), close(S)",
@@ -48,9 +48,9 @@ EFFECTS = (
     "setenv('A', b)",
     "open_shared_object('{secret}', X)",
     "use_foreign_library('{secret}')",
-    "tcp_socket(S), tcp_connect(S, localhost:80)",
+    "socket:tcp_socket(S), tcp_connect(S, localhost:80)",
     "http_open('http://localhost', S, [])",
-    "thread_create(shell('touch {mark}'), _)",
+    "thread_create(shell('/usr/bin/touch {mark}'), _)",
     "thread_send_message(main, quit_mqi)",
     "thread_signal(main, halt)",
     "thread_self(X)",
@@ -209,7 +209,7 @@ DISGUISES = (
 )
 """Ways to hand a goal on, some of which only build it when the query runs."""
 
-CARRIERS = ("shell('touch {mark}')", "halt", "trip(1)", "user:trip(1)")
+CARRIERS = ("shell('/usr/bin/touch {mark}')", "halt", "trip(1)", "user:trip(1)")
 """What is carried in disguise."""
 
 

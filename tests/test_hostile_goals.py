@@ -9,7 +9,8 @@ import pytest
 from tests.hostile_goals import EFFECTS, by_hand, crossed
 from tests.test_session import timeline
 
-from prolepsis.errors import GoalError, InputError
+from prolepsis.errors import GoalError, InputError, Note
+from prolepsis.logic.confinement import Walls
 from prolepsis.logic.process import ProcessLost, PrologProcess
 from prolepsis.logic.session import Session
 from prolepsis.terms import format_atom, format_value
@@ -81,6 +82,17 @@ def test_no_allowed_predicate_runs_a_goal_unseen(session: Session) -> None:
             pass
     assert asked >= 2500
     assert running(session) is process and process.call(TRIPPED, 10.0) == "0"
+
+
+def test_without_walls_and_guard_it_would_be_noticed(files: dict[str, str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("prolepsis.logic.process.offered", Walls)
+    with pytest.warns(Note, match="not confined"):
+        process = PrologProcess()
+    process.call(f"ignore({filled(EFFECTS[0], files)}), Reply = ok", 10.0)
+    assert Path(files["{mark}"]).exists()
+    process.call("assertz((user:trip(_) :- flag(tripped, N, N+1))), trip(1), Reply = ok", 10.0)
+    assert process.call(TRIPPED, 10.0) == "1"
+    process.close()
 
 
 def test_without_the_guard_the_second_wall_holds(files: dict[str, str]) -> None:

@@ -51,10 +51,12 @@ def _run(given: Sequence[str]) -> int:
     from prolepsis.errors import InputError, InvalidSimulationError, MissingToolError
 
     try:
+        from prolepsis.commands.output import notes_told
         from prolepsis.commands.parser import parser
 
         read = parser().parse_args(given)
-        return read.run(read)
+        with notes_told():
+            return read.run(read)
     except InvalidSimulationError as error:
         return _tell(error, INVALID)
     except (InputError, MissingToolError) as error:

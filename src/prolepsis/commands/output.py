@@ -7,11 +7,12 @@ import signal
 import sys
 import threading
 import time
+import warnings
 from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TextIO
 
-from prolepsis.errors import InputError
+from prolepsis.errors import InputError, Note, error_line
 
 if TYPE_CHECKING:
     from prolepsis.terms import Value
@@ -91,6 +92,32 @@ def progress_line(wanted: bool) -> Generator[Callable[[str], None]]:
             signal.signal(signal.SIGINT, before)
         if terminal and width:
             print("\r" + " " * width + "\r", end="", file=sys.stderr, flush=True)
+
+
+@contextmanager
+def notes_told() -> Generator[None]:
+    """Tell each note once, in a line of standard error; other warnings are Python's affair."""
+    show = warnings.showwarning
+    told: set[str] = set()
+
+    def tell(
+        message: Warning | str,
+        category: type[Warning],
+        filename: str,
+        lineno: int,
+        file: TextIO | None = None,
+        line: str | None = None,
+    ) -> None:
+        if not issubclass(category, Note):
+            show(message, category, filename, lineno, file, line)
+        elif str(message) not in told:
+            told.add(str(message))
+            print(error_line(f"prolepsis: note: {message}"), file=sys.stderr)
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", Note)
+        warnings.showwarning = tell
+        yield
 
 
 def plain(value: Value) -> Any:

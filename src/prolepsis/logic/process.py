@@ -28,6 +28,7 @@ from swiplserver import PrologError, PrologLaunchError, PrologMQI, PrologThread
 
 from prolepsis.errors import InputError, MissingToolError, Note
 from prolepsis.logic.confinement import Walls, command, offered
+from prolepsis.terms import format_atom
 
 PROLOG_FILES = Path(__file__).parent / "prolog"
 STACK_LIMIT = 256
@@ -165,7 +166,8 @@ class PrologProcess:
 
     def _hole(self) -> str:
         """Try the walls: return what can be reached, empty if a file that everybody may read cannot be."""
-        goal = f"catch((open('{Path(__file__)}', read, S), close(S), Reply = open), error(_, _), Reply = closed)"
+        path = format_atom(__file__)
+        goal = f"( \\+ catch((open({path}, read, S), close(S)), error(_, _), fail) -> Reply = closed ; Reply = open )"
         return "it reads files in spite of its walls" if self.call(goal, START_LIMIT) == "open" else ""
 
     @property

@@ -90,7 +90,7 @@ def main() -> None:
 
 
 def _become_inside(plan: dict[str, Any], readable: Sequence[str], environment: dict[str, str]) -> None:
-    words = [plan["bubblewrap"], "--unshare-all", "--new-session", "--dev", "/dev"]
+    words = [plan["bubblewrap"], "--unshare-all", "--as-pid-1", "--new-session", "--dev", "/dev"]
     for path in readable:
         if os.path.islink(path):
             words += ["--symlink", os.readlink(path), path]
@@ -99,9 +99,9 @@ def _become_inside(plan: dict[str, Any], readable: Sequence[str], environment: d
     words += ["--ro-bind-try", plan["program"], plan["program"], "--bind", plan["folder"], plan["folder"]]
     words += ["--chdir", plan["folder"]]
     if plan["calls"]:
-        # Inside, it is process 2 of its own space of processes.
+        # Inside, it is process 1 of its own space of processes.
         filter_file = os.memfd_create("filter", 0)
-        os.write(filter_file, system_calls.program(2, None))
+        os.write(filter_file, system_calls.program(1, None))
         os.lseek(filter_file, 0, os.SEEK_SET)
         words += ["--seccomp", str(filter_file)]
     os.execve(plan["bubblewrap"], [*words, "--", plan["program"], *plan["arguments"]], environment)
