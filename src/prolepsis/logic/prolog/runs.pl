@@ -100,7 +100,7 @@ add_row(proof(Name, Value), Module, Id0, Id) =>
 add_row(type(Type, Kind, Arity), Module, Id0, Id) =>
     Id = Id0,
     add_type(Module, Type, Kind, Arity).
-add_row(Row, Module, Id0, Id) =>
+add_row(Row, Module, Id0, Id), callable(Row), functor(Row, Name, Arity), table(Name/Arity) =>
     Id = Id0,
     assertz(Module:Row).
 
