@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import time
+import warnings
 from contextlib import suppress
 from pathlib import Path
 
@@ -94,13 +95,13 @@ def test_bubblewrap_stands_in_for_landlock(tmp_path: Path, monkeypatch: pytest.M
     session.close()
 
 
-def test_a_wall_that_must_stand_and_cannot_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_wall_that_must_stand_and_cannot_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(processes, "offered", Walls)
     monkeypatch.setenv("PROLEPSIS_REQUIRE_CONFINEMENT", "1")
-    before = set(Path("/tmp").glob(f"prolepsis-{os.getpid()}-*"))
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     with pytest.raises(MissingToolError, match="Prolog cannot be confined, as required: files can be read"):
         Session().ask(timeline(), "true")
-    assert set(Path("/tmp").glob(f"prolepsis-{os.getpid()}-*")) == before
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_wall_that_does_not_hold_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -204,8 +205,11 @@ def test_folders_of_killed_programs_are_cleaned_by_the_next() -> None:
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     folder = Path(done.stdout.strip())
     assert folder.is_dir()
+    living = PrologProcess()
     PrologProcess().close()
-    assert not folder.exists()
+    assert not folder.exists() and living.folder.exists()
+    living.close()
+    assert not living.folder.exists()
 
 
 @pytest.mark.parametrize("way", ["os.fork", "multiprocessing"])
@@ -267,3 +271,29 @@ def test_a_long_folder_for_temporary_files_is_passed_over(tmp_path: Path, monkey
     process = PrologProcess()
     assert not str(process.folder).startswith(str(long))
     process.close()
+
+
+def test_a_script_in_the_place_of_swipl_leads_to_what_it_starts(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    script = tmp_path / "swipl"
+    script.write_text(f'#!/bin/sh\nexec {shutil.which("swipl")} "$@"\n')
+    script.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        PrologProcess().close()
+
+
+def test_what_cannot_be_started_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    def absent(*words: object, **given: object) -> list[str]:
+        return ["/nonexistent/python"]
+
+    monkeypatch.setattr(processes, "command", absent)
+    with pytest.raises(MissingToolError, match="cannot be started: No such file"):
+        PrologProcess()
+
+
+def test_a_program_with_python_built_in_finds_another_for_the_launcher(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "executable", "")
+    PrologProcess().close()

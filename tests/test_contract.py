@@ -44,7 +44,7 @@ def test_contract(session: Session, case: dict[str, Any], goal: dict[str, Any]) 
     timeline = runs["run1"]
     if "error" in goal:
         with pytest.raises(GoalError, match=re.escape(goal["error"].removesuffix(", ..."))):
-            session.ask(timeline, goal["goal"], time_limit=2.0 if "memory" not in goal["error"] else 20.0)
+            session.ask(timeline, goal["goal"], time_limit=0.5 if "memory" not in goal["error"] else 20.0)
         assert session.ask(timeline, "holds(contacts(a, b), _)") == [{}]
         return
     answers = session.ask(timeline, goal["goal"])

@@ -60,6 +60,17 @@ def asked(tmp_path: Path, *rules: str, goal: str = "occurs(E, T)") -> list[objec
         ("holds(X, T) :- true.", "line 1: holds/2 exists already; give the helper another name"),
         ("append(X, Y, Z) :- true.", "line 1: append/3 exists already"),
         ("halt.", "line 1: halt/0 exists already"),
+        ("chronicle([a|b], 0-1).", "line 1: no event"),
+        ("chronicle('[]', 0-1) :- fail.\nend_of_file.\nx.", "line 2: no rule: end_of_file"),
+        ("chronicle(falling(fake), 0-1).", "line 1: falling is known without this file; give the event another name"),
+        ("chronicle(picking_up(a, b), 0-1).", "line 1: picking_up is known without this file"),
+        (f"chronicle({'x' * 5000}(X), T) :- {'y' * 5000}(T).", "line 1: unknown predicate yyy"),
+        (f"{'x' * 5000} :- {'y' * 5000} --> z.", "line 1: (no rule|syntax error)"),
+        (
+            "chronicle(x(R), 0-1) :- length(L, 32), foldl([_, A, B]>>(B = f(A, A)), L, x, R).",
+            "chronicle x/1 needs a value before it is known, or leaves its event or interval open, or too large",
+        ),
+        ("chronicle(x(1), 0-nan).", "chronicle x/1"),
         ("shell(X) :- true.", "line 1: shell/1 exists already"),
         ("helper(X) :- true.", "holds no chronicle; a file holds rules"),
         ("", "holds no chronicle"),
@@ -92,6 +103,18 @@ def test_helpers_stay_in_their_file(tmp_path: Path) -> None:
     assert set(map(str, events)) == {
         str(term) for term in (Term("first", (1,)), Term("second", (2,)), Term("dropping", ("hand1", "egg1")))
     }
+
+
+def test_times_are_found_however_they_are_written(tmp_path: Path) -> None:
+    rule = "chronicle(x(N), S-E) :- member(N, [1, 2]), S is N rdiv 4, E is N * 1."
+    for goal in ("occurs(x(1), 0.25-1), E = 1", "occurs(x(1), 0.25-1.0), E = 1", "occurs(x(2), 0.5-E)"):
+        assert len(asked(tmp_path, rule, goal=goal)) == 1, goal
+
+
+def test_many_helpers_are_checked_soon(tmp_path: Path) -> None:
+    helpers = "".join(f"z{number}.\n" for number in range(4500))
+    rule = f"chronicle(x(1), 0-1) :- {', '.join(['z1'] * 20000)}.\n"
+    assert asked(tmp_path, helpers + rule, goal="occurs(E, _), E = x(_)") == [Term("x", (1,))]
 
 
 def test_a_later_file_sees_the_events_of_an_earlier_one(tmp_path: Path) -> None:

@@ -10,10 +10,10 @@ however that ends, since then its standard input is closed.
 
 from __future__ import annotations
 
+import fcntl
 import json
 import multiprocessing.util
 import os
-import re
 import select
 import shutil
 import socket
@@ -26,7 +26,7 @@ from typing import IO, Any, cast
 
 from swiplserver import PrologError, PrologLaunchError, PrologMQI, PrologThread
 
-from prolepsis.errors import InputError, MissingToolError, Note
+from prolepsis.errors import InputError, MissingToolError, Note, brief
 from prolepsis.logic.confinement import Walls, command, offered
 from prolepsis.terms import format_atom
 
@@ -37,6 +37,8 @@ PROCESS_LIMIT = 4 << 30
 """Address space of the whole process [bytes]: what findall/3 collects is not on the stacks."""
 START_LIMIT = 60.0
 """Longest time for starting [s]; it takes a quarter of a second."""
+SCRIPT_LIMIT = 10.0
+"""Longest time in which a script in its place tells what it starts [s]."""
 LISTENS_AFTER = 0.02
 """Time from which on Prolog listens, mostly, after it has told its socket [s]."""
 LONGEST_SOCKET = 91
@@ -44,7 +46,8 @@ LONGEST_SOCKET = 91
 REQUIRE_CONFINEMENT = "PROLEPSIS_REQUIRE_CONFINEMENT"
 """Environment variable that refuses to ask where Prolog cannot be confined."""
 NO_SWIPL = "SWI-Prolog is not installed (no 'swipl' on PATH): sudo apt install swi-prolog-nox"
-_FOLDER = re.compile(r"prolepsis-(\d+)-\w+")
+PREFIX, LOCK = "prolepsis-prolog-", "lock"
+"""Of the folder for the socket: how its name begins, and the file that is locked while it is in use."""
 
 
 class ProcessLost(Exception):
@@ -101,15 +104,13 @@ class PrologProcess:
         Raises:
             MissingToolError: If there is no SWI-Prolog, it does not start, or it cannot be confined and must be.
         """
-        program = shutil.which("swipl")
-        if program is None:
-            raise MissingToolError(NO_SWIPL)
-        self.folder = _folder()
+        program = _program()
+        self.folder, self._lock = _folder()
         self._idle: list[_Connection] = []
         try:
             self._start(program)
         except BaseException:
-            shutil.rmtree(self.folder, ignore_errors=True)
+            self._remove()
             raise
         # Not atexit, without which a child ends that multiprocessing forked.
         self._finalizer = multiprocessing.util.Finalize(None, self.close, exitpriority=0)
@@ -117,16 +118,18 @@ class PrologProcess:
     def _start(self, program: str) -> None:
         walls = offered()
         missing = walls.missing
-        try:
-            self._launch(program, walls)
-        except MissingToolError as error:
-            # A system whose libraries stand elsewhere than the walls let be read.
-            missing = f"it does not start within {walls}: {error}"
-            if _must_be_confined():
-                raise MissingToolError(f"Prolog cannot be confined, as required: {missing}") from None
-            self._launch(program, Walls())
-        else:
-            missing = missing or self._hole()
+        # A system whose libraries stand elsewhere than the walls let be read starts with fewer.
+        for fewer in (walls, Walls(calls=walls.calls), Walls()):
+            try:
+                self._launch(program, fewer)
+                break
+            except MissingToolError as error:
+                if _must_be_confined():
+                    raise MissingToolError(f"Prolog cannot be confined, as required: {error}") from None
+                if fewer == Walls():
+                    raise
+                missing = missing or f"it does not start within {walls}: {brief(error, 100)}"
+        missing = missing or self._hole()
         if missing and _must_be_confined():
             self._end()
             raise MissingToolError(f"Prolog cannot be confined, as required: {missing}")
@@ -147,11 +150,14 @@ class PrologProcess:
         arguments += [f"--unix_domain_socket={PrologMQI.unix_domain_socket_file(str(self.folder))}"]
         words = command(program, arguments, walls=walls, folder=self.folder, code=PROLOG_FILES, memory=PROCESS_LIMIT)
         with tempfile.TemporaryFile() as said:
-            self._process = subprocess.Popen(
-                words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=said, start_new_session=True
-            )
             try:
-                path, password = _first_lines(cast(IO[bytes], self._process.stdout), time.monotonic() + START_LIMIT)
+                self._process = subprocess.Popen(
+                    words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=said, start_new_session=True
+                )
+            except OSError as error:
+                raise MissingToolError(f"{program} cannot be started: {error.strerror}") from None
+            try:
+                path, password = _lines(cast(IO[bytes], self._process.stdout), 2, time.monotonic() + START_LIMIT)
                 server: Any = PrologMQI(launch_mqi=False, unix_domain_socket=path, password=password)
                 self._server = server
                 # Prolog tells its socket just before it listens, and the library waits a second for a second try.
@@ -160,15 +166,17 @@ class PrologProcess:
             except (ProcessLost, PrologLaunchError, OSError, ValueError) as error:
                 self._end()
                 said.seek(0)
-                words_said = said.read(2000).decode(errors="replace").split()
-                why = " ".join(words_said)[:120] or str(error)
-                raise MissingToolError(f"{program} does not start as SWI-Prolog does: {why}") from None
+                why = " ".join(said.read(2000).decode(errors="replace").split()) or str(error)
+                raise MissingToolError(f"{program} does not start as SWI-Prolog does: {brief(why, 120)}") from None
 
     def _hole(self) -> str:
-        """Try the walls: return what can be reached, empty if a file that everybody may read cannot be."""
-        path = format_atom(__file__)
-        goal = f"( \\+ catch((open({path}, read, S), close(S)), error(_, _), fail) -> Reply = closed ; Reply = open )"
-        return "it reads files in spite of its walls" if self.call(goal, START_LIMIT) == "open" else ""
+        """Try the walls: return what can be reached, empty if a file of this user's cannot be."""
+        with tempfile.NamedTemporaryFile(dir=self.folder.parent, prefix="prolepsis-wall-") as file:
+            path = format_atom(file.name)
+            goal = (
+                f"( \\+ catch((open({path}, read, S), close(S)), error(_, _), fail) -> Reply = closed ; Reply = open )"
+            )
+            return "it reads files in spite of its walls" if self.call(goal, START_LIMIT) == "open" else ""
 
     @property
     def process_id(self) -> int:
@@ -206,17 +214,24 @@ class PrologProcess:
         """End the process and remove its folder."""
         self._finalizer.cancel()
         self._end()
-        shutil.rmtree(self.folder, ignore_errors=True)
+        self._remove()
 
     def leave_to_parent(self) -> None:
         """In a forked child: close this program's ends of what leads to the process, which is the parent's."""
         self._close_ends()
+        os.close(self._lock)
         self._process.returncode = 0  # Else it is waited for when it is forgotten.
 
     def _end(self) -> None:
         self._close_ends()
         self._process.kill()
         self._process.wait()
+
+    def _remove(self) -> None:
+        shutil.rmtree(self.folder, ignore_errors=True)
+        if self._lock >= 0:
+            os.close(self._lock)
+            self._lock = -1
 
     def _close_ends(self) -> None:
         for connection in self._idle:
@@ -231,19 +246,49 @@ def _must_be_confined() -> bool:
     return os.environ.get(REQUIRE_CONFINEMENT, "") not in ("", "0")
 
 
-def _folder() -> Path:
-    """Return a new folder for the socket, and remove those of programs that were killed."""
+def _program() -> str:
+    """Return the path of SWI-Prolog itself: what stands on PATH may be a script, which no wall lets start another."""
+    program = shutil.which("swipl")
+    if program is None:
+        raise MissingToolError(NO_SWIPL)
+    program = os.path.abspath(program)
+    try:
+        with open(program, "rb") as file:
+            is_script = file.read(2) == b"#!"
+    except OSError:
+        is_script = False
+    if not is_script:
+        return program
+    asked = [program, "-f", "none", "-g", "current_prolog_flag(executable, E), print(E), nl", "-t", "halt"]
+    try:
+        with subprocess.Popen(
+            asked, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
+        ) as asks:
+            try:
+                (told,) = _lines(cast(IO[bytes], asks.stdout), 1, time.monotonic() + SCRIPT_LIMIT)
+            finally:
+                asks.kill()
+    except (OSError, ValueError, ProcessLost):
+        return program
+    own = told.strip("'")
+    return own if os.access(own, os.X_OK) else program
+
+
+def _folder() -> tuple[Path, int]:
+    """Return a new folder for the socket and its lock, and remove the folders of programs that were killed."""
     tried: list[str] = []
     for parent in dict.fromkeys((_temporary(), "/tmp", "/dev/shm")):
-        if parent is None or len(os.fsencode(parent)) + 70 > LONGEST_SOCKET:
+        if parent is None or len(os.fsencode(parent)) + 60 > LONGEST_SOCKET:
             continue
         try:
-            folder = Path(tempfile.mkdtemp(prefix=f"prolepsis-{os.getpid()}-", dir=parent))
+            folder = Path(tempfile.mkdtemp(prefix=PREFIX, dir=parent))
+            lock = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
+            fcntl.flock(lock, fcntl.LOCK_EX)
         except OSError as error:
             tried.append(f"{parent}: {error.strerror}")
             continue
         _clean(Path(parent))
-        return folder
+        return folder, lock
     raise MissingToolError(f"no folder for temporary files: {'; '.join(tried) or 'set TMPDIR to a short path'}")
 
 
@@ -255,23 +300,32 @@ def _temporary() -> str | None:
 
 
 def _clean(parent: Path) -> None:
-    for entry in os.scandir(parent):
-        match = _FOLDER.fullmatch(entry.name)
-        if match is None or not entry.is_dir(follow_symlinks=False):
-            continue
+    """Remove the folders whose lock nobody holds; a number of a process would tell nothing of another container."""
+    for folder in parent.glob(f"{PREFIX}*"):
         try:
-            if entry.stat(follow_symlinks=False).st_uid == os.getuid():
-                os.kill(int(match.group(1)), 0)
-        except ProcessLookupError:
-            shutil.rmtree(entry.path, ignore_errors=True)
+            if folder.lstat().st_uid != os.getuid():
+                continue
+            lock = os.open(folder / LOCK, os.O_RDWR | os.O_NOFOLLOW | os.O_CLOEXEC)
         except OSError:
             continue
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            shutil.rmtree(folder, ignore_errors=True)
+        except OSError:
+            continue
+        finally:
+            os.close(lock)
 
 
-def _first_lines(stream: IO[bytes], deadline: float) -> tuple[str, str]:
-    """Return the path of the socket and the password, which Prolog writes when it is ready."""
+def _lines(stream: IO[bytes], count: int, deadline: float) -> list[str]:
+    """Return the first lines that a program writes.
+
+    Raises:
+        ProcessLost: If it does not write as many until the deadline, or far more.
+        ValueError: If they are no text.
+    """
     said = b""
-    while said.count(b"\n") < 2:
+    while said.count(b"\n") < count:
         left = deadline - time.monotonic()
         if left <= 0 or not select.select([stream], [], [], left)[0]:
             raise ProcessLost("it tells no socket in time")
@@ -279,5 +333,4 @@ def _first_lines(stream: IO[bytes], deadline: float) -> tuple[str, str]:
         if not data or len(said) > 10_000:
             raise ProcessLost("it tells no socket")
         said += data
-    path, password, *_ = said.decode().splitlines()
-    return path, password
+    return said.decode().split("\n")[:count]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import re
 
-from prolepsis.errors import GoalError, GoalLimitError
+from prolepsis.errors import GoalError, GoalLimitError, brief
 from prolepsis.logic.process import STACK_LIMIT
 from prolepsis.timeline import Timeline
 
@@ -28,14 +28,14 @@ SYNTAX = {
     "punct": "a bracket or a comma stands where a term should",
 }
 """What SWI-Prolog's messages mean."""
-SHOWN = 200
+SHOWN = 120
 """Characters of a goal that a message shows."""
 _CALL = re.compile(r"(\w+)(\s?)\(")
 
 
 def shown(goal: str) -> str:
     """Return a goal as messages quote it."""
-    return repr(goal if len(goal) <= SHOWN else goal[:SHOWN] + "...")
+    return repr(brief(goal, SHOWN))
 
 
 def refusal(status: str, body: str, goal: str, time_limit: float, timeline: Timeline) -> GoalError:
@@ -54,19 +54,21 @@ def refusal(status: str, body: str, goal: str, time_limit: float, timeline: Time
             return GoalError(_syntax(int(position), message, goal))
         case "predicate":
             name, known = body.split("\n", 1)
-            return GoalError(f"unknown predicate {name}; {_nearest(name, known.split(chr(9)), timeline)}")
+            return GoalError(f"unknown predicate {brief(name)}; {_nearest(name, known.split(chr(9)), timeline)}")
         case "relation":
-            return GoalError(f"unknown relation {body!r}; known: {RELATIONS}")
+            return GoalError(f"unknown relation {brief(body)!r}; known: {RELATIONS}")
         case "permission":
-            return GoalError(f"not permitted: {body}: {PERMITTED}")
+            return GoalError(f"not permitted: {brief(body)}: {PERMITTED}")
         case "module":
-            return GoalError(f"not permitted: {body}: a predicate is called without the name of its module")
+            return GoalError(f"not permitted: {brief(body)}: a predicate is called without the name of its module")
         case "goal":
-            return GoalError(f"not a goal: {body}; a goal is a predicate with arguments, such as holds(Fluent, T)")
+            return GoalError(
+                f"not a goal: {brief(body)}; a goal is a predicate with arguments, such as holds(Fluent, T)"
+            )
         case "unbound":
             return GoalError(f"not permitted: a goal that is known only when the query runs: {shown(goal)}")
         case "interval":
-            return GoalError(f"not an interval: {body}; an interval is Start-End, with Start before End")
+            return GoalError(f"not an interval: {brief(body)}; an interval is Start-End, with Start before End")
         case "time":
             return GoalLimitError(f"time limit of {time_limit:g} s reached: {shown(goal)}")
         case "memory":
@@ -78,7 +80,7 @@ def refusal(status: str, body: str, goal: str, time_limit: float, timeline: Time
                 f"a value is needed before it is known; give it, or put the goals that find it first: {shown(goal)}"
             )
         case _:
-            return GoalError(f"{body.strip() or status}: {shown(goal)}")
+            return GoalError(f"{brief(body.strip() or status, 120)}: {shown(goal)}")
 
 
 def _syntax(position: int, message: str, goal: str) -> str:

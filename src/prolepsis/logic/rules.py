@@ -6,7 +6,7 @@ import difflib
 import stat
 from pathlib import Path
 
-from prolepsis.errors import GoalLimitError, InputError
+from prolepsis.errors import GoalLimitError, InputError, brief
 from prolepsis.logic.refusals import PERMITTED
 
 LONGEST_RULES = 1_000_000
@@ -44,18 +44,23 @@ def rule_refusal(reply: str, file: Path, *, text: str = "", limit: float = 0.0) 
     """
     kind, _, rest = reply.partition("\n")
     where, _, about = rest.partition("\n")
-    at = f"chronicles, {file}"
+    at = f"chronicles, {brief(file, 100)}"
+    where = brief(where)
     line = f"{at}, line {where}"
     match kind:
         case "syntax":
             number = text.count("\n", 0, int(where)) + 1
-            return InputError(f"{at}, line {number}: syntax error: {about}")
+            return InputError(f"{at}, line {number}: syntax error: {_short(about)}")
         case "rule":
             return InputError(f"{line}: no rule: {_short(about)}; {FORM}, and nothing in it is executed")
         case "head":
             return InputError(f"{line}: no event: {_short(about)}; {FORM}")
         case "taken":
-            return InputError(f"{line}: {about} exists already; give the helper another name")
+            return InputError(f"{line}: {_short(about)} exists already; give the helper another name")
+        case "known":
+            return InputError(f"{line}: {_short(about)} is known without this file; give the event another name")
+        case "late":
+            return GoalLimitError(f"{at}: the rules take too long to be read and checked")
         case "goal":
             return InputError(f"{line}: {_goal(about)}")
         case "many":
@@ -65,7 +70,7 @@ def rule_refusal(reply: str, file: Path, *, text: str = "", limit: float = 0.0) 
         case "answers":
             return GoalLimitError(f"{at}: chronicle {where} has {int(about):,} answers or more")
         case "open":
-            what = "needs a value before it is known, or leaves its event or interval open"
+            what = "needs a value before it is known, or leaves its event or interval open, or too large"
             return InputError(f"{at}: chronicle {where} {what}")
         case "failed":
             return _failed(f"{at}: chronicle {where}", about, limit)
@@ -78,11 +83,11 @@ def _goal(about: str) -> str:
     if reason == "predicate":
         name, _, known = what.partition("\n")
         near = difflib.get_close_matches(name, known.split("\t"), n=1, cutoff=0.75)
-        return f"unknown predicate {name}" + (f"; did you mean {near[0]}?" if near else "")
+        return f"unknown predicate {brief(name)}" + (f"; did you mean {near[0]}?" if near else "")
     if reason == "unbound":
         return "not permitted: a goal that is known only when the rule runs"
     if reason == "relation":
-        return f"unknown relation {what!r}"
+        return f"unknown relation {_short(what)!r}"
     return f"not permitted: {_short(what)}: {PERMITTED}"
 
 
@@ -95,5 +100,4 @@ def _failed(chronicle: str, about: str, limit: float) -> InputError:
 
 
 def _short(text: str) -> str:
-    text = " ".join(text.split())
-    return text if len(text) <= 120 else text[:117] + "..."
+    return brief(" ".join(text.split()), 100)

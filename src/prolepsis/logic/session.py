@@ -29,6 +29,8 @@ LOAD_LIMIT = 600.0
 """Longest time for loading one run [s]."""
 CHRONICLE_LIMIT = 10.0
 """Longest time for working out one chronicle of a user's in one run [s]."""
+ALL_CHRONICLES_LIMIT = 60.0
+"""Longest time for those of one file together [s]."""
 LONGEST = 86_400.0
 """Longest time limit [s]."""
 LONGEST_GOAL = 20_000
@@ -48,15 +50,15 @@ class Session:
         self._chronicles = tuple(Path(file).resolve() for file in chronicles)
         self._process: PrologProcess | None = None
         self._lock = threading.RLock()
-        self._alone = threading.Lock()
         self._names: dict[int, str] = {}
+        self._runs: dict[str, weakref.ref[Timeline]] = {}
         self._loaded: set[str] = set()
         self._made = 0
         _sessions.add(self)
 
     def begin_anew(self) -> None:
         """In a forked child: leave the process to the parent. Locks may be held by threads that only the parent has."""
-        self._lock, self._alone = threading.RLock(), threading.Lock()
+        self._lock = threading.RLock()
         if self._process is not None:
             self._process.leave_to_parent()
         self._process = None
@@ -67,55 +69,76 @@ class Session:
 
         Args:
             timeline: The facts.
-            run: Name by which ``in(Run, Goal)`` finds it; made up when ``None``.
+            run: Name by which ``in(Run, Goal)`` finds it, which another timeline loses; made up when ``None``.
         """
         try:
-            return self._load(timeline, run)
+            return self._load(timeline, run)[1]
         except ProcessLost:
             raise GoalLimitError(f"a run of {len(timeline.facts)} facts could not be loaded") from None
 
-    def _load(self, timeline: Timeline, run: str | None = None) -> str:
+    def _load(self, timeline: Timeline, run: str | None = None) -> tuple[PrologProcess, str]:
         with self._lock:
+            name = self._name(timeline, run)
             process = self._running()
-            key = id(timeline)
-            if run is not None and self._names.get(key) != run:
-                self._loaded.discard(run)
-                self._names[key] = run
-            elif key not in self._names:
-                self._made += 1
-                self._names[key] = f"run{self._made}"
-            name = self._names[key]
-            if name not in self._loaded:
-                file = process.folder / "facts.pl"
-                write_run(timeline, file)
-                atom = format_atom(name)
-                try:
-                    process.call(f"runs:load_run({atom}, {format_atom(str(file))}), Reply = ok", LOAD_LIMIT)
-                except ProcessLost:
-                    self._lose(process)
-                    raise
-                except InputError as error:
-                    self._lose(process)
-                    raise InputError(f"the facts cannot be loaded: {error}") from None
-                self._add_rules(process, atom)
-                process.call(f"runs:finish_run({atom}), Reply = ok", LOAD_LIMIT)
-                file.unlink()
-                self._loaded.add(name)
-                weakref.finalize(timeline, self._forget, key, name)
-            return name
+            # All that have a name: a process that died has lost them, and in/2 would find nothing.
+            for each, reference in list(self._runs.items()):
+                known = reference()
+                if each not in self._loaded and known is not None:
+                    self._load_run(process, each, known)
+            return process, name
+
+    def _name(self, timeline: Timeline, run: str | None) -> str:
+        key = id(timeline)
+        known = self._names.get(key)
+        if known is not None and run in (None, known):
+            return known
+        name = run
+        while name is None or (run is None and name in self._runs):
+            self._made += 1
+            name = f"run{self._made}"
+        if known is not None:
+            self._drop(known)
+        if name in self._runs:
+            self._names = {other: its for other, its in self._names.items() if its != name}
+            self._drop(name)
+        self._names[key] = name
+        self._runs[name] = weakref.ref(timeline)
+        weakref.finalize(timeline, self._forget, key)
+        return name
+
+    def _load_run(self, process: PrologProcess, name: str, timeline: Timeline) -> None:
+        file, atom = process.folder / "facts.pl", format_atom(name)
+        try:
+            write_run(timeline, file)
+            process.call(f"runs:load_run({atom}, {format_atom(str(file))}), Reply = ok", LOAD_LIMIT)
+            file.unlink()
+            self._add_rules(process, atom)
+            process.call(f"runs:finish_run({atom}), Reply = ok", LOAD_LIMIT)
+        except (ProcessLost, FileNotFoundError):
+            self._lose(process)
+            raise ProcessLost("gone") from None
+        except GoalError:
+            raise
+        except InputError as error:
+            self._lose(process)
+            raise InputError(f"the facts cannot be loaded: {error}") from None
+        self._loaded.add(name)
 
     def _add_rules(self, process: PrologProcess, run: str) -> None:
-        seconds = format_value(CHRONICLE_LIMIT)
         for number, file in enumerate(self._chronicles):
-            try:
-                reply = process.call(f"rules:add_rules_to_run({number}, {run}, {seconds}, Reply)", LOAD_LIMIT)
-            except ProcessLost as lost:
-                self._lose(process)
-                limit = "time" if str(lost) == "time" else "memory"
-                raise GoalLimitError(f"chronicles, {file}: {limit} limit reached") from None
-            if reply != "ok":
-                self._lose(process)
-                raise rule_refusal(reply, file, limit=CHRONICLE_LIMIT)
+            goal = f"rules:add_rules_to_run({number}, {run}, {format_value(CHRONICLE_LIMIT)}, Reply)"
+            self._rules_reply(process, goal, file, ALL_CHRONICLES_LIMIT)
+
+    def _rules_reply(self, process: PrologProcess, goal: str, file: Path, seconds: float, text: str = "") -> None:
+        try:
+            reply = process.call(goal, seconds + GRACE)
+        except ProcessLost as lost:
+            self._lose(process)
+            reached = f"time limit of {seconds:g} s" if str(lost) == "time" else "memory limit"
+            raise GoalLimitError(f"chronicles, {file}: {reached} reached") from None
+        if reply != "ok":
+            self._lose(process)
+            raise rule_refusal(reply, file, text=text, limit=CHRONICLE_LIMIT)
 
     def ask(
         self, timeline: Timeline, goal: str, *, limit: int | None = None, time_limit: float = 10.0
@@ -126,26 +149,20 @@ class Session:
         try:
             reply = self._reply(timeline, goal, limit, time_limit)
         except ProcessLost as lost:
-            if str(lost) == "gone":  # perhaps by no fault of ours: it is asked again, alone
-                with self._alone:
-                    try:
-                        reply = self._reply(timeline, goal, limit, time_limit)
-                    except ProcessLost:
-                        raise GoalLimitError(f"memory limit reached: {shown(goal)}") from None
-            else:
+            if str(lost) == "time":
                 raise GoalLimitError(f"time limit of {time_limit:g} s reached: {shown(goal)}") from None
+            # Perhaps by no fault of this goal: another one was stopped, or somebody killed the process.
+            reply = self._reply_apart(timeline, goal, limit, time_limit)
         status, _, body = reply.partition("\n")
         if status not in ("ok", "cut"):
             raise refusal(status, body, goal, time_limit, timeline)
         if status == "cut":
-            warnings.warn(
-                f"a value is too large or too deep to be told whole; ... stands for the rest: {shown(goal)}", Note, 3
-            )
+            what = "a value is too large or too deep to be told whole; ... stands for the rest"
+            warnings.warn(f"{what}: {shown(goal)}", Note, 3)
         return _answers(body, time.monotonic() + time_limit + GRACE, goal)
 
     def _reply(self, timeline: Timeline, goal: str, limit: int | None, time_limit: float) -> str:
-        name = self._load(timeline)
-        process = self._running()
+        process, name = self._load(timeline)
         count = "inf" if limit is None else str(limit)
         seconds = format_value(float(time_limit))
         call = f"answers:ask({format_atom(name)}, {format_atom(goal)}, {count}, {seconds}, Reply)"
@@ -154,6 +171,21 @@ class Session:
         except ProcessLost:
             self._lose(process)
             raise
+
+    def _reply_apart(self, timeline: Timeline, goal: str, limit: int | None, time_limit: float) -> str:
+        """Reply from a process of its own, where nobody else's goal is stopped."""
+        apart = Session(chronicles=self._chronicles)
+        with self._lock:
+            runs = [(name, known) for name, reference in self._runs.items() if (known := reference()) is not None]
+        try:
+            for name, known in runs:
+                apart._name(known, name)
+            return apart._reply(timeline, goal, limit, time_limit)
+        except ProcessLost as lost:
+            reached = f"time limit of {time_limit:g} s" if str(lost) == "time" else "memory limit"
+            raise GoalLimitError(f"{reached} reached: {shown(goal)}") from None
+        finally:
+            apart.close()
 
     def close(self) -> None:
         """End the process; the next question starts another."""
@@ -170,19 +202,16 @@ class Session:
             return self._process
 
     def _load_chronicles(self, process: PrologProcess, number: int) -> None:
+        from prolepsis.fluents import EVENTS, FLUENTS
+
         file = self._chronicles[number]
         text = read_rules(file)
         copy = process.folder / "rules.pl"
         copy.write_text(text, encoding="utf-8")
-        try:
-            reply = process.call(f"rules:add_rules({number}, {format_atom(str(copy))}, Reply)", LOAD_LIMIT)
-        except ProcessLost:
-            self._lose(process)
-            raise GoalLimitError(f"chronicles, {file}: they cannot be read within time and memory") from None
+        taken = ",".join(map(format_atom, sorted({*FLUENTS, *EVENTS})))
+        goal = f"rules:add_rules({number}, {format_atom(str(copy))}, [{taken}], {format_value(CHRONICLE_LIMIT)}, Reply)"
+        self._rules_reply(process, goal, file, CHRONICLE_LIMIT, text)
         copy.unlink()
-        if reply != "ok":
-            self._lose(process)
-            raise rule_refusal(reply, file, text=text)
 
     def _lose(self, process: PrologProcess) -> None:
         with self._lock:
@@ -191,18 +220,23 @@ class Session:
                 self._process = None
                 self._loaded.clear()
 
-    def _forget(self, key: int, name: str) -> None:
+    def _forget(self, key: int) -> None:
         with self._lock:
-            if self._names.get(key) == name:
-                del self._names[key]
-            process = self._process
-            if name not in self._loaded or process is None:
-                return
-            self._loaded.discard(name)
-            try:
-                process.call(f"runs:drop_run({format_atom(name)}), Reply = ok", GRACE)
-            except ProcessLost:
-                self._lose(process)
+            name = self._names.pop(key, None)
+            if name is not None:
+                self._drop(name)
+
+    def _drop(self, name: str) -> None:
+        """Forget a run."""
+        self._runs.pop(name, None)
+        process = self._process
+        if name not in self._loaded or process is None:
+            return
+        self._loaded.discard(name)
+        try:
+            process.call(f"runs:drop_run({format_atom(name)}), Reply = ok", GRACE)
+        except ProcessLost:
+            self._lose(process)
 
 
 _sessions: weakref.WeakSet[Session] = weakref.WeakSet()

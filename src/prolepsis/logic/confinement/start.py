@@ -6,6 +6,7 @@ import ctypes
 import json
 import os
 import resource
+import shutil
 import signal
 import sys
 from collections.abc import Sequence
@@ -24,6 +25,8 @@ KEPT_VARIABLES = ("LD_LIBRARY_PATH", "SWI_HOME_DIR", "TZ")
 LONGEST_FILE = 1 << 20
 """Longest file that it may write, which is what it says on standard error [bytes]."""
 OPEN_FILES = 512
+MOST_LIBRARIES = 1000
+"""Most libraries in the folders of LD_LIBRARY_PATH that are made readable, one by one."""
 
 _ENTER = "import sys; sys.path.insert(0, sys.argv.pop(1)); from prolepsis.logic.confinement.start import main; main()"
 
@@ -52,7 +55,13 @@ def command(
         "memory": memory,
     }
     root = str(Path(__file__).resolve().parents[3])
-    return [sys.executable, "-I", "-S", "-c", _ENTER, root, json.dumps(plan)]
+    return [_python(), "-I", "-S", "-c", _ENTER, root, json.dumps(plan)]
+
+
+def _python() -> str:
+    """Return a Python to run the launcher; the running program may be one that has Python built in."""
+    own = "" if getattr(sys, "frozen", False) else sys.executable
+    return own or shutil.which("python3") or "python3"
 
 
 def main() -> None:
@@ -115,13 +124,14 @@ def _limit(kind: int, most: int) -> None:
 
 
 def _readable(program: str, code: str, library_path: str) -> list[str]:
-    named = [path for path in library_path.split(":") if path]
-    return [*LIBRARIES, *SYSTEM_FILES, *COMPUTING, *_home(program), code, *named]
+    named = [str(file) for path in library_path.split(":") if path for file in Path(path).glob("*.so*")]
+    return [*LIBRARIES, *SYSTEM_FILES, *COMPUTING, *_home(program), code, *named[:MOST_LIBRARIES]]
 
 
 def _home(program: str) -> list[str]:
     """Return the folder of Prolog's own libraries: the nearest one about the program that holds its boot file."""
-    for folder in Path(program).resolve().parents:
+    named = [Path(folder) for folder in [os.environ.get("SWI_HOME_DIR")] if folder]
+    for folder in (*named, *Path(program).resolve().parents):
         if (folder / "boot.prc").is_file():
             return [str(folder)]
     return []

@@ -101,14 +101,13 @@ NUMBERS: dict[str, tuple[int | None, int | None]] = {
     "getsockopt": (55, 209),
     "listen": (50, 201),
     "recvfrom": (45, 207),
-    "sendto": (44, 206),
     "setsockopt": (54, 208),
     "shutdown": (48, 210),
 }
 """Calls that are allowed with any arguments."""
 
 # Calls that are allowed with some arguments only.
-CLONE, EXECVE, IOCTL, OPEN, OPENAT, PRCTL, PRLIMIT, SOCKET, TGKILL = range(9)
+CLONE, EXECVE, IOCTL, OPEN, OPENAT, PRCTL, PRLIMIT, SENDTO, SOCKET, TGKILL = range(10)
 WITH_ARGUMENTS: dict[int, tuple[int | None, int | None]] = {
     CLONE: (56, 220),
     EXECVE: (59, 221),
@@ -117,6 +116,7 @@ WITH_ARGUMENTS: dict[int, tuple[int | None, int | None]] = {
     OPENAT: (257, 56),
     PRCTL: (157, 167),
     PRLIMIT: (302, 261),
+    SENDTO: (44, 206),
     SOCKET: (41, 198),
     TGKILL: (234, 131),
 }
@@ -162,6 +162,12 @@ def program(process: int, path: int | None) -> bytes:
     def refuse(code: int) -> bytes:
         return _instruction(RETURN, ERROR | code)
 
+    def nothing(number: int) -> bytes:
+        """Go on if an argument is a null pointer; else pass over the next instruction."""
+        return (
+            argument(number) + _instruction(EQUAL, 0, 0, 3) + argument(number, high=True) + _instruction(EQUAL, 0, 0, 1)
+        )
+
     allow, absent, denied = _instruction(RETURN, ALLOW), refuse(errno.ENOSYS), refuse(errno.EPERM)
     rules: dict[int, bytes] = {
         CLONE: argument(0) + _instruction(ANY_BIT, CLONE_THREAD, 0, 1) + allow + denied,
@@ -171,13 +177,9 @@ def program(process: int, path: int | None) -> bytes:
         PRCTL: argument(0)
         + b"".join(_instruction(EQUAL, option, 0, 1) + allow for option in (PR_SET_NAME, PR_GET_NAME))
         + denied,
-        # Limits may be read, not set.
-        PRLIMIT: argument(2)
-        + _instruction(EQUAL, 0, 0, 3)
-        + argument(2, high=True)
-        + _instruction(EQUAL, 0, 0, 1)
-        + allow
-        + denied,
+        # Limits may be read, not set, and words are sent to who has connected, not to an address.
+        PRLIMIT: nothing(2) + allow + denied,
+        SENDTO: nothing(4) + allow + denied,
         SOCKET: argument(0) + _instruction(EQUAL, AF_UNIX, 0, 1) + allow + denied,
         TGKILL: argument(0) + _instruction(EQUAL, process, 0, 1) + allow + denied,
     }

@@ -8,7 +8,8 @@
 :- module(answers,
           [ ask/5,                      % +Run, +Text, +Limit, +Seconds, -Reply
             failure/2,                  % +Error, -Lines
-            short_text/2                % +Term, -Text
+            short_text/2,               % +Term, -Text
+            small/1                     % +Term
           ]).
 :- use_module(library(time)).
 :- use_module(library(apply)).
@@ -56,24 +57,24 @@ pairs([Name=Value|More], [Name|Names], [Value|Values]) :-
 %   Unbound variables of one answer are named _1, _2 ... so that equal answers have equal texts.
 
 value_texts(Values0, Text) :-
-    copy_term(Values0, Values1, _),
-    (   acyclic_term(Values1)
-    ->  Values2 = Values1
-    ;   maplist(finite, Values1, Values2)
+    (   acyclic_term(Values0)
+    ->  Values1 = Values0
+    ;   maplist(finite, Values0, Values1)
     ),
     most_characters(Most),
-    (   size_abstract_term(100, Values2, Abstract),
-        Abstract =@= Values2,
-        written(Values2, Text),
+    (   size_abstract_term(100, Values1, Abstract),
+        Abstract =@= Values1,
+        written(Values1, Text),
         string_length(Text, Length),
         Length =< Most
     ->  true
-    ;   cut(Values2, Values),
+    ;   cut(Values1, Values),
         written(Values, Text)
     ),
     count(Text).
 
-written(Values, Text) :-
+written(Values0, Text) :-
+    copy_term(Values0, Values, _),
     term_variables(Values, Variables),
     numbered(Variables, 1, Names),
     with_output_to(string(Text), write_values(Values, Names)).
@@ -85,7 +86,7 @@ finite(Value, Finite) :-
         Finite = @(Skeleton, Substitutions)
     ).
 
-%   How much of an answer is told: names and numbers, how deep they stand, and the characters of one name; and of all
+%   How much of a value is told: names and numbers, how deep they stand, and the characters of one name; and of all
 %   answers, characters. A term that shares its parts may be far larger when it is written than in memory.
 
 most_parts(200_000).
@@ -98,8 +99,11 @@ most_told(50_000_000).
 %   Cut is Values where what is too large or too deep has become the atom ... .
 
 cut(Values, Cut) :-
+    maplist(cut_value, Values, Cut).
+
+cut_value(Value, Cut) :-
     most_parts(Most),
-    cut_list(Values, Most, _, 0, Cut).
+    cut_term(Value, Most, _, 0, Cut).
 
 cut_term(Term, Left0, Left, Depth, Cut) :-
     most_deep(Deepest),
@@ -199,41 +203,63 @@ failure(error(existence_error(relation, Name), _), Lines) :-
     refusal(unknown_relation(Name), Lines).
 failure(error(type_error(interval, Value), _), ["interval\n", Text]) :-
     !,
-    format(string(Text), '~q', [Value]).
+    short_text(Value, Text).
 failure(error(existence_error(procedure, PI), _), Lines) :-
     !,
     strip_module(PI, _, Plain),
     refusal(unknown_predicate(Plain), Lines).
 failure(Error, ["error\n", Text]) :-
-    message_to_string(Error, Text0),
-    split_string(Text0, "\n", " ", Parts),
-    atomic_list_concat(Parts, ' ', Text).
+    (   small(Error),
+        catch(message_text(Error, Text0), _, fail)
+    ->  split_string(Text0, "\n", " ", Parts),
+        atomic_list_concat(Parts, ' ', Text1),
+        shortened(Text1, Text)
+    ;   short_text(Error, Text)
+    ).
 
-message_to_string(Error, Text) :-
-    message_to_codes_(Error, Text),
-    !.
-message_to_string(Error, Text) :-
-    short_text(Error, Text).
-
-%!  short_text(+Term, -Text:string) is det.
-
-short_text(Term, Text) :-
-    term_variables(Term, Variables),
-    maplist(=('$VAR'('_')), Variables),
-    format(string(Text), '~W', [Term, [quoted(true), numbervars(true), max_depth(20)]]).
-
-message_to_codes_(error(Formal, _), Text) :-
+message_text(error(Formal, _), Text) :-
     '$messages':translate_message(error(Formal, _), Lines, []),
     with_output_to(string(Text), print_message_lines(current_output, '', Lines)).
 
-refusal(syntax(Character, Message), ["syntax\n", Character, "\n", Message]).
+%!  short_text(+Term, -Text:string) is det.
+%
+%   Text shows Term in at most 200 characters and one line, however large Term is.
+
+short_text(Term0, Text) :-
+    (   acyclic_term(Term0)
+    ->  Term1 = Term0
+    ;   finite(Term0, Term1)
+    ),
+    size_abstract_term(60, Term1, Term2),
+    copy_term(Term2, Term, _),
+    term_variables(Term, Variables),
+    maplist(=('$VAR'('_')), Variables),
+    format(string(Long), '~W', [Term, [quoted(true), numbervars(true), max_depth(20)]]),
+    shortened(Long, Text).
+
+shortened(Long, Text) :-
+    string_length(Long, Length),
+    (   Length =< 200
+    ->  Text = Long
+    ;   sub_string(Long, 0, 197, _, Start),
+        string_concat(Start, "...", Text)
+    ).
+
+%   small(+Term): Term has few enough parts to be written.
+
+small(Term) :-
+    size_abstract_term(1000, Term, Abstract),
+    Abstract =@= Term.
+
+refusal(syntax(Character, Message), ["syntax\n", Character, "\n", Text]) :-
+    shortened(Message, Text).
 refusal(unknown_predicate(PI), ["predicate\n", Text, "\n", Known]) :-
-    format(string(Text), '~w', [PI]),
+    short_text(PI, Text),
     findall(Name, ( allowed(N/A), format(atom(Name), '~w/~w', [N, A]) ), Names),
     sort(Names, Sorted),
     atomic_list_concat(Sorted, '\t', Known).
 refusal(unknown_relation(Name), ["relation\n", Text]) :-
-    format(string(Text), '~w', [Name]).
+    short_text(Name, Text).
 refusal(not_permitted(Goal), [Kind, Text]) :-
     (   callable(Goal), Goal \== []
     ->  ( Goal = _:_ -> Kind = "module\n" ; Kind = "permission\n" )

@@ -19,6 +19,7 @@
 :- use_module(library(lists)).
 :- use_module(library(apply)).
 :- use_module(library(aggregate)).
+:- use_module(library(assoc)).
 :- use_module(library(pairs)).
 :- use_module(library(ordsets)).
 :- use_module(library(solution_sequences)).
@@ -79,9 +80,7 @@ anonymous(Name=_) :-
 
 read_only(In, Goal, Bindings) :-
     read_data(In, Goal, [variable_names(Bindings)]),
-    catch(read_rest(In, Rest),
-          error(syntax_error(What), Where),
-          syntax_refusal(What, Where)),
+    read_rest(In, Rest),
     (   Rest == end_of_file
     ->  true
     ;   throw(refused(syntax(0, 'more than one goal; join them with a comma')))
@@ -104,8 +103,8 @@ read_data(In, Term, Options) :-
 
 % After a goal with its own full stop and a comment, only the full stop is left that read_goal/3 added.
 read_rest(In, Rest) :-
-    catch(read_term(In, Rest, [module(query), syntax_errors(error)]),
-          error(syntax_error(end_of_clause), _),
+    catch(read_data(In, Rest, []),
+          refused(syntax(_, 'end of clause')),
           Rest = end_of_file).
 
 syntax_refusal(What, Where) :-
@@ -132,12 +131,12 @@ message_to_string_of(What, Message) :-
 %          refused(not_permitted(Goal)), refused(unbound_goal)
 
 check_goal(Goal) :-
-    check_body(Goal, []),
+    check_body(Goal, t),
     catch(sandbox:safe_goal(query:Goal), error(Error, _), sandbox_refusal(Error, Goal)).
 
 %!  check_body(+Goal, +Helpers) is det.
 %
-%   As check_goal/1, where predicates with the Name/Arity of Helpers may be used, too, which are checked elsewhere.
+%   As check_goal/1, where predicates with a Name/Arity in the assoc Helpers may be used, too, which are checked elsewhere.
 
 check_body(Goal, Helpers) :-
     (   acyclic_term(Goal)
@@ -162,7 +161,7 @@ walk(Module:Goal, _) =>
 walk(Goal, Helpers) =>
     functor(Goal, Name, Arity),
     functor(Form, Name, Arity),
-    (   memberchk(Name/Arity, Helpers)
+    (   get_assoc(Name/Arity, Helpers, _)
     ->  true
     ;   may(Form)
     ->  walk_arguments(Arity, Form, Goal, Helpers)
@@ -255,13 +254,19 @@ only_prints([_|Codes]) :-
 
 printing(`acdDefgGhiInqrRstw~|+`).
 
+%   A column or a count has at most three digits; ~* would take it from the arguments, which are not known yet.
+
 directive([0'`, _, Directive|Rest], Directive, Rest) :- !.
-directive([0'*, Directive|Rest], Directive, Rest) :- !.
-directive([Digit|Codes], Directive, Rest) :-
+directive(Codes, Directive, Rest) :-
+    digits(3, Codes, [Directive|Rest]).
+
+digits(N, [Digit|Codes], Rest) :-
     between(0'0, 0'9, Digit),
     !,
-    directive(Codes, Directive, Rest).
-directive([Directive|Rest], Directive, Rest).
+    N > 0,
+    Fewer is N-1,
+    digits(Fewer, Codes, Rest).
+digits(_, Codes, Codes).
 
 %!  allowed(?Name/Arity) is nondet.
 %

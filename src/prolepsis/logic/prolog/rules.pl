@@ -5,14 +5,16 @@
 */
 
 :- module(rules,
-          [ add_rules/3,                % +Number, +File, -Reply
+          [ add_rules/5,                % +Number, +File, +Taken, +Seconds, -Reply
             add_rules_to_run/4          % +Number, +Run, +Seconds, -Reply
           ]).
 :- use_module(library(apply)).
+:- use_module(library(assoc)).
 :- use_module(library(lists)).
 :- use_module(library(time)).
 :- use_module(library(solution_sequences)).
 :- use_module(answers).
+:- use_module(chronicles).
 :- use_module(guard).
 :- use_module(query).
 :- use_module(runs).
@@ -24,14 +26,13 @@
 most_clauses(10_000).
 most_answers(100_000).
 
-%!  add_rules(+Number, +File, -Reply:string) is det.
+%!  add_rules(+Number, +File, +Taken, +Seconds, -Reply:string) is det.
 %
-%   Read the rules in File as those of Number. Reply is "ok", or what is wrong: its kind, the line of the rule (of a
-%   syntax error, the character), and what it is about.
+%   Read the rules in File as those of Number, in at most Seconds. No event may be called as those in Taken. Reply is "ok",
+%   or what is wrong: its kind, the line of the rule (of a syntax error, the character), and what it is about.
 
-add_rules(Number, File, Reply) :-
-    catch(( read_rules(File, Rules),
-            check_rules(Rules),
+add_rules(Number, File, Taken, Seconds, Reply) :-
+    catch(( call_with_time_limit(Seconds, ( read_rules(File, Rules), check_rules(Rules, Taken) )),
             keep_rules(Number, Rules),
             Lines = ["ok"] ),
           Error,
@@ -45,10 +46,13 @@ read_rules(File, Rules) :-
 
 read_rules(In, Count, Rules) :-
     read_data(In, Term, [term_position(Position)]),
+    stream_position_data(line_count, Position, Line),
     (   Term == end_of_file
-    ->  Rules = []
-    ;   stream_position_data(line_count, Position, Line),
-        most_clauses(Most),
+    ->  (   at_end_of_stream(In)
+        ->  Rules = []
+        ;   throw(refused_at(Line, no_rule(Term)))
+        )
+    ;   most_clauses(Most),
         (   Count < Most
         ->  true
         ;   throw(refused_at(Line, too_many))
@@ -58,14 +62,15 @@ read_rules(In, Count, Rules) :-
         read_rules(In, Next, More)
     ).
 
-check_rules(Rules) :-
-    maplist(check_head, Rules, Names),
+check_rules(Rules, Taken) :-
+    maplist(check_head(Taken), Rules, Names),
     (   memberchk(chronicle/2, Names)
     ->  true
     ;   throw(refused_at(1, no_chronicle))
     ),
     sort(Names, Distinct),
-    exclude(==(chronicle/2), Distinct, Helpers),
+    findall(Name-true, ( member(Name, Distinct), Name \== chronicle/2 ), Pairs),
+    list_to_assoc(Pairs, Helpers),
     forall(member(Line-Term, Rules),
            ( parts(Term, _, Body),
              catch(check_body(Body, Helpers), refused(Reason), throw(refused_at(Line, Reason))) )).
@@ -73,18 +78,29 @@ check_rules(Rules) :-
 parts((Head :- Body), Head, Body) :- !.
 parts(Head, Head, true).
 
-check_head(Line-Term, Name/Arity) :-
+check_head(Taken, Line-Term, Name/Arity) :-
     parts_checked(Term, Line, Head),
     functor(Head, Name, Arity),
     (   Head = chronicle(Event, _)
-    ->  (   callable(Event),
-            Event \= _:_
-        ->  true
-        ;   throw(refused_at(Line, event(Event)))
-        )
+    ->  check_event(Event, Line, Taken)
     ;   functor(General, Name, Arity),
         ( allowed(Name/Arity) ; exists(General) )
     ->  throw(refused_at(Line, taken(Name/Arity)))
+    ;   true
+    ).
+
+check_event(Event, Line, Taken) :-
+    (   callable(Event),
+        functor(Event, Name, Arity),
+        Event \= _:_,
+        atom(Name),
+        Name \== '[|]',
+        ( Arity > 0 ; atom(Event) )
+    ->  true
+    ;   throw(refused_at(Line, event(Event)))
+    ),
+    (   ( memberchk(Name, Taken) ; chronicle_name(Name, _) )
+    ->  throw(refused_at(Line, known_event(Name)))
     ;   true
     ).
 
@@ -126,16 +142,30 @@ add_rules_to_run(Number, Run, Seconds, Reply) :-
 occurrences(Seconds, Event, Goal, Template, Found) :-
     functor(Event, Name, Arity),
     most_answers(Most),
-    catch(call_with_time_limit(Seconds, findall(Template, limit(Most, Goal), Found)),
+    catch(call_with_time_limit(Seconds,
+                               % What shares its parts would be copied part by part.
+                               findall(Template, limit(Most, ( Goal, checked(Template) )), Found0)),
           Error,
           throw(failed(Name/Arity, Error))),
-    (   length(Found, Most)
+    (   length(Found0, Most)
     ->  throw(failed(Name/Arity, too_many_answers))
-    ;   member(Wrong, Found),
-        \+ ( ground(Wrong), Wrong = occurrence(S, E, _), number(S), number(E) )
-    ->  throw(failed(Name/Arity, open_answer))
-    ;   true
+    ;   maplist(in_floats, Found0, Found)
     ).
+
+checked(occurrence(S, E, Event)) :-
+    (   number(S),
+        number(E),
+        S > -inf,
+        E < inf,
+        small(Event),
+        ground(Event)
+    ->  true
+    ;   throw(open_answer)
+    ).
+
+in_floats(occurrence(S0, E0, Event), occurrence(S, E, Event)) :-
+    S is float(S0),
+    E is float(E0).
 
 %!  failure_at(+Error, -Lines) is det.
 
@@ -144,6 +174,7 @@ failure_at(refused_at(Line, no_chronicle), ["none\n", Line]) :- !.
 failure_at(refused_at(Line, no_rule(Term)), ["rule\n", Line, "\n", Text]) :- !, short_text(Term, Text).
 failure_at(refused_at(Line, event(Term)), ["head\n", Line, "\n", Text]) :- !, short_text(Term, Text).
 failure_at(refused_at(Line, taken(PI)), ["taken\n", Line, "\n", Text]) :- !, short_text(PI, Text).
+failure_at(refused_at(Line, known_event(Name)), ["known\n", Line, "\n", Text]) :- !, short_text(Name, Text).
 failure_at(refused_at(Line, Reason), ["goal\n", Line, "\n"|Lines]) :- !, failure(refused(Reason), Lines).
 failure_at(refused(syntax(Character, Message)), ["syntax\n", Character, "\n", Message]) :- !.
 failure_at(failed(PI, too_many_answers), ["answers\n", Text, "\n", Most]) :-
@@ -153,4 +184,5 @@ failure_at(failed(PI, too_many_answers), ["answers\n", Text, "\n", Most]) :-
 failure_at(failed(PI, open_answer), ["open\n", Text]) :- !, short_text(PI, Text).
 failure_at(failed(PI, error(instantiation_error, _)), ["open\n", Text]) :- !, short_text(PI, Text).
 failure_at(failed(PI, Error), ["failed\n", Text, "\n"|Lines]) :- !, short_text(PI, Text), failure(Error, Lines).
+failure_at(time_limit_exceeded, ["late\n"]) :- !.
 failure_at(Error, ["file\n"|Lines]) :- failure(Error, Lines).

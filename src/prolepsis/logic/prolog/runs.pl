@@ -173,7 +173,8 @@ foldl_chronicles([], _, _, _, Id, Id).
 foldl_chronicles([Name/Arity|Names], Source, Finder, Module, Id0, Id) :-
     functor(Event, Name, Arity),
     Module:tick(Tick),
-    call(Finder, Event, ( Source:chronicle(Event, S-E0), E is max(E0, S+Tick) ), occurrence(S, E, Event), Found),
+    % max/2 alone passes over what is no number.
+    call(Finder, Event, ( Source:chronicle(Event, S-E0), E is max(E0, S+Tick)+0*E0 ), occurrence(S, E, Event), Found),
     sort(Found, Distinct),
     (   Distinct == []
     ->  Id1 = Id0
