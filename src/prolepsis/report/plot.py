@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
+from prolepsis.aside import written_aside
 from prolepsis.errors import InputError
-from prolepsis.sealed import written_aside
 from prolepsis.things import FloatArray
 
 SCALE = 2

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
 
+from prolepsis.aside import check_replaceable, written_aside
 from prolepsis.errors import InputError
 from prolepsis.log import Log
 from prolepsis.report.liquid import Picture, painted
 from prolepsis.report.offscreen import Camera
-from prolepsis.sealed import check_replaceable, written_aside
 
 FRAME_RATE = 30
 """Frames of a video a second of watching."""
+MARK = "prolepsis"
+"""Key of a text in each frame, the SHA-256 of its pixels, by which a frame of ours is known."""
+LARGEST = 4096
+"""Greatest side of a frame [pixel]."""
 BEHIND = 0.6
 """Part of what a vessel adds to a picture that is due to its far walls [1]: three of the five surfaces in line."""
 
@@ -50,7 +56,6 @@ def render_video(
         raise InputError(f"speed {speed:g}: is not between 0.001 and 100")
     count = max(2, round(log.duration / speed * FRAME_RATE))
     ticks = _ticks(log, np.arange(count) * speed / FRAME_RATE)
-    target.parent.mkdir(parents=True, exist_ok=True)
     with written_aside(target) as aside:
         writer: Any = cast(Any, imageio_ffmpeg).write_frames(
             str(aside), size, fps=FRAME_RATE, codec="libx264", quality=8, macro_block_size=2
@@ -76,11 +81,11 @@ def render_frames(
     Raises:
         InputError: If ``folder`` holds other files than frames, or the log is empty.
     """
-    target = _frames_folder(folder)
+    target = Path(folder).absolute()
+    check_replaceable(target, _our_frames)
     ticks = _evenly(log, count)
-    target.parent.mkdir(parents=True, exist_ok=True)
     names: list[str] = []
-    with written_aside(target) as aside:
+    with written_aside(target, _our_frames) as aside:
         aside.mkdir()
         for i, picture in enumerate(_report(pictures(log, ticks, size=size), len(ticks), progress)):
             names.append(f"frame{i:04d}_{log.time[ticks[i]]:.3f}s.png")
@@ -130,7 +135,6 @@ def render_strip(
     strip = Image.new("RGB", (len(shown) * (width + 4) - 4, height), "white")
     for i, picture in enumerate(shown):
         strip.paste(Image.fromarray(picture), (i * (width + 4), 0))
-    target.parent.mkdir(parents=True, exist_ok=True)
     with written_aside(target) as aside:
         strip.save(aside)
 
@@ -173,16 +177,30 @@ def _report(shown: Iterator[Picture], count: int, progress: Callable[[float], No
             progress((i + 1) / count)
 
 
-def _frames_folder(folder: str | Path) -> Path:
-    path = Path(folder)
-    ours = path.is_dir() and all(file.match("frame*_*s.png") for file in path.iterdir())
-    return (path if ours else check_replaceable(path)).absolute()
+def _our_frames(folder: Path) -> set[str]:
+    """Return the names of the frames in a folder that are as they were drawn."""
+    from PIL import Image
+
+    names: set[str] = set()
+    for file in folder.glob("frame*_*s.png"):
+        if file.is_symlink() or not file.is_file():
+            continue
+        with suppress(OSError, SyntaxError, ValueError), Image.open(file, formats=["PNG"]) as image:
+            if MARK in image.info and max(image.size) <= LARGEST and image.info[MARK] == _seal(np.asarray(image)):
+                names.add(file.name)
+    return names
+
+
+def _seal(picture: Picture) -> str:
+    return hashlib.sha256(str(picture.shape).encode() + picture.tobytes()).hexdigest()
 
 
 def _save(picture: Picture, file: Path) -> None:
-    from PIL import Image
+    from PIL import Image, PngImagePlugin
 
-    Image.fromarray(picture).save(file)
+    said = PngImagePlugin.PngInfo()
+    said.add_text(MARK, _seal(picture))
+    Image.fromarray(picture).save(file, pnginfo=said)
 
 
 def _with_time(picture: Picture, time: float) -> Picture:
