@@ -1,12 +1,15 @@
-"""A small log made by hand: an egg that falls from a flap and breaks, without any simulator."""
+"""Small logs made by hand: an egg that falls from a flap and breaks, and a liquid beside it, without any simulator."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
-from prolepsis.log import Action, Contacts, Detachments, Log
+from prolepsis.log import FREE, PARKED, Action, Contacts, Detachments, Log, Particles
+from prolepsis.particle_tables import rounded
 from prolepsis.terms import Term
-from prolepsis.things import FloatArray, Geom, Shape, Thing
+from prolepsis.things import FloatArray, Geom, Hole, Shape, Surface, Thing
 
 DT = 0.001
 TICKS = 800
@@ -97,3 +100,48 @@ def _contacts() -> Contacts:
     point = np.zeros((count, 3))
     point[:FALL, 2] = 0.505
     return Contacts(tick=tick, a=a, b=b, force=force, normal=normal, point=point, peak=size)
+
+
+def wet_log() -> Log:
+    """Return the log of a dropped egg beside which a liquid falls past a cup with a hole and a mesh."""
+    cup = Shape(
+        profile=((0.0, 0.0), (0.03, 0.0), (0.03, 0.05), (0.0275, 0.05), (0.0275, 0.003), (0.0, 0.003)),
+        holes=(Hole(position=(0.03, 0.0, 0.02), direction=(-1.0, 0.0, 0.0), radius=0.004),),
+    )
+    corners = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    mesh = Shape(surface=Surface(vertices=corners, triangles=((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))))
+    dry = egg_drop_log()
+    more = (
+        Thing(name="cup1", kind="Cup", shape=cup),
+        Thing(name="vase1", kind="Vase", shape=mesh),
+        Thing(name="liq1", kind="Water", mass=0.003, roles=frozenset({"Stuff", "Liquid"})),
+    )
+    still = np.zeros((dry.tick_count, len(more), 7))
+    still[:, :, 3] = 1.0
+    carriers = np.tile(np.array([8, 9, -1]), (dry.tick_count, 1))
+    return replace(
+        dry,
+        things=(*dry.things, *more),
+        poses=np.concatenate((dry.poses, still), axis=1),
+        carrier=np.concatenate((dry.carrier, carriers), axis=1),
+        particles=particles(),
+    )
+
+
+def particles(*, frames: int = 40, count: int = 30) -> Particles:
+    """Return particles of one liquid that fall, a third of which are absorbed and a few parked."""
+    random = np.random.default_rng(5)
+    time = np.arange(frames)[:, None] * 0.02
+    position = random.random((1, count, 3)) * np.array([0.1, 0.1, 0.5]) - 0.5 * 9.81 * time[..., None] ** 2
+    holder = np.full((frames, count), FREE, dtype=np.int16)
+    holder[30:, : count // 3] = 7
+    holder[35:, -3:] = PARKED
+    return Particles(
+        tick=np.arange(frames) * 20,
+        position=rounded(position),
+        holder=holder,
+        stuff=np.full(count, 10),
+        mass=np.full(count, 1e-4),
+        volume=np.full(count, 1e-7),
+        spacing=0.00464,
+    )

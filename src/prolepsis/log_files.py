@@ -2,25 +2,52 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
+from pydantic import BaseModel, ConfigDict, ValidationError
 
 from prolepsis import log_tables as tables
 from prolepsis import particle_tables
-from prolepsis.errors import InputError, LogError
+from prolepsis.errors import InputError, LogError, brief
 from prolepsis.log import Action, Log, Particles
-from prolepsis.sealed import read_sealed, to_json, write_sealed
+from prolepsis.log_checks import check_log
+from prolepsis.sealed import read_sealed, read_text, to_json, write_sealed
 from prolepsis.terms import Term, format_value, parse_term
-from prolepsis.things import Geom, Hole, Shape, Surface, Thing
+from prolepsis.things import Geom, Hole, Shape, Surface, Thing, Triple
 
 HEAD = "log.json"
 """Tick, gravity, things, actions and the spacing of the particles: what is no column."""
+_EXACTLY = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
 _FRAMES, _KINDS, _PLACES = "particle_frames.parquet", "particle_kinds.parquet", "particles.parquet"
+
+
+class _Action(BaseModel):
+    model_config = _EXACTLY
+    term: str
+    start: int
+    end: int
+    outcome: str
+    evidence: dict[str, float | str]
+
+
+class _Particles(BaseModel):
+    model_config = _EXACTLY
+    spacing: float
+
+
+class _Head(BaseModel):
+    """What the JSON file of a log says."""
+
+    model_config = _EXACTLY
+    dt: float
+    gravity: Triple
+    things: tuple[Thing, ...]
+    actions: tuple[_Action, ...]
+    particles: _Particles | None = None
 
 
 def write_log(log: Log, folder: str | Path) -> None:
@@ -42,7 +69,15 @@ def read_log(folder: str | Path) -> Log:
 
 
 def write_log_files(log: Log, path: Path) -> None:
-    """Write the files of a log into an existing folder, unsealed."""
+    """Write the files of a log into an existing folder, unsealed.
+
+    Raises:
+        InputError: If the log is none, so that it could not be read.
+    """
+    try:
+        check_log(log)
+    except ValueError as error:
+        raise InputError(f"the log cannot be saved: {error}") from None
     head = {
         "dt": log.dt,
         "gravity": log.gravity,
@@ -51,15 +86,17 @@ def write_log_files(log: Log, path: Path) -> None:
         "particles": {"spacing": log.particles.spacing} if _has_particles(log) else None,
     }
     (path / HEAD).write_text(to_json(head), encoding="utf-8")
-    tables.write_table(path / "ticks.parquet", {"time": log.time, **dict(sorted(log.channels.items()))})
-    tables.write_table(path / "poses.parquet", tables.pose_columns(log.poses, log.carrier))
-    tables.write_table(path / "contacts.parquet", tables.contact_columns(log.contacts))
-    tables.write_table(path / "bonds.parquet", tables.bond_columns(log.bonds))
-    tables.write_table(path / "detachments.parquet", tables.detachment_columns(log.detachments))
+    ticks = {"time": log.time, **dict(sorted(log.channels.items()))}
+    tables.write_table(path / "ticks.parquet", ticks, dict.fromkeys(ticks, "double"))
+    tables.write_table(path / "poses.parquet", tables.pose_columns(log.poses, log.carrier), tables.POSES)
+    tables.write_table(path / "contacts.parquet", tables.contact_columns(log.contacts), tables.CONTACTS)
+    tables.write_table(path / "bonds.parquet", tables.bond_columns(log.bonds), tables.BONDS)
+    tables.write_table(path / "detachments.parquet", tables.detachment_columns(log.detachments), tables.DETACHMENTS)
     if _has_particles(log):
-        tables.write_table(path / _FRAMES, particle_tables.frame_columns(log.particles))
-        tables.write_table(path / _KINDS, particle_tables.kind_columns(log.particles))
-        tables.write_table(path / _PLACES, particle_tables.place_columns(log.particles))
+        tables.write_table(path / _FRAMES, particle_tables.frame_columns(log.particles), particle_tables.FRAMES)
+        tables.write_table(path / _KINDS, particle_tables.kind_columns(log.particles), particle_tables.KINDS)
+        places = particle_tables.place_columns(log.particles)
+        tables.write_table(path / _PLACES, places, particle_tables.place_kinds(places))
 
 
 def read_log_files(path: Path) -> Log:
@@ -69,43 +106,54 @@ def read_log_files(path: Path) -> Log:
         LogError: If its files do not hold a log.
     """
     try:
-        head: dict[str, Any] = json.loads((path / HEAD).read_text(encoding="utf-8"))
-        things = tuple(_thing(row) for row in head["things"])
+        head = _Head.model_validate_json(read_text(path / HEAD))
+        things = head.things
         ticks = tables.read_table(path / "ticks.parquet")
         time = ticks.pop("time")
-        poses, carrier = tables.poses_from(tables.read_table(path / "poses.parquet"), len(time), len(things))
-        return Log(
-            dt=head["dt"],
+        poses, carrier = tables.poses_from(
+            tables.read_table(path / "poses.parquet", tables.POSES), len(time), len(things)
+        )
+        log = Log(
+            dt=head.dt,
             things=things,
             time=time,
             poses=poses,
             carrier=carrier,
-            contacts=tables.contacts_from(tables.read_table(path / "contacts.parquet")),
-            bonds=tables.bonds_from(tables.read_table(path / "bonds.parquet")),
-            detachments=tables.detachments_from(tables.read_table(path / "detachments.parquet")),
-            particles=_particles(head.get("particles"), path, len(things), len(time)),
+            contacts=tables.contacts_from(tables.read_table(path / "contacts.parquet", tables.CONTACTS)),
+            bonds=tables.bonds_from(tables.read_table(path / "bonds.parquet", tables.BONDS)),
+            detachments=tables.detachments_from(tables.read_table(path / "detachments.parquet", tables.DETACHMENTS)),
+            particles=_particles(head.particles, path, len(things), len(time)),
             channels=ticks,
-            actions=tuple(_action(row) for row in head["actions"]),
-            gravity=_numbers(head["gravity"]),
+            actions=tuple(_action(row) for row in head.actions),
+            gravity=head.gravity,
         )
+        check_log(log)
+        return log
     except FileNotFoundError as error:
         raise LogError(f"{path}: holds no log (it has no {Path(str(error.filename)).name})") from None
-    except (KeyError, TypeError, ValueError, IndexError, InputError) as error:
+    except ValidationError as error:
+        problem = error.errors(include_url=False)[0]
+        place = "/".join(str(key) for key in problem["loc"])
+        raise LogError(f"{path}: its log is malformed: {HEAD}: {brief(place)}: {brief(problem['msg'])}") from None
+    except (KeyError, ValueError, InputError) as error:
         if isinstance(error, LogError):
             raise
-        raise LogError(f"{path}: its log is malformed: {type(error).__name__}: {error}") from None
+        lacking = "no column " if isinstance(error, KeyError) else ""
+        raise LogError(f"{path}: its log is malformed: {lacking}{brief(error, 200)}") from None
 
 
 def _has_particles(log: Log) -> bool:
     return bool(len(log.particles.stuff) or len(log.particles.tick))
 
 
-def _particles(head: dict[str, Any] | None, path: Path, thing_count: int, tick_count: int) -> Particles:
+def _particles(head: _Particles | None, path: Path, thing_count: int, tick_count: int) -> Particles:
     if head is None:
         return Particles()
-    frames, kinds, places = (tables.read_table(path / name) for name in (_FRAMES, _KINDS, _PLACES))
+    frames = tables.read_table(path / _FRAMES, particle_tables.FRAMES)
+    kinds = tables.read_table(path / _KINDS, particle_tables.KINDS)
+    places = tables.read_table(path / _PLACES, particle_tables.WHOLE_PLACES, particle_tables.FINE_PLACES)
     return particle_tables.particles_from(
-        frames, kinds, places, spacing=float(head["spacing"]), thing_count=thing_count, tick_count=tick_count
+        frames, kinds, places, spacing=head.spacing, thing_count=thing_count, tick_count=tick_count
     )
 
 
@@ -132,44 +180,12 @@ def _plain_action(action: Action) -> dict[str, Any]:
     }
 
 
-def _numbers(row: list[float]) -> Any:
-    return tuple(row)
-
-
-def _geom(row: dict[str, Any]) -> Geom:
-    lists = {name: _numbers(row[name]) for name in ("size", "position", "orientation")}
-    return Geom(type=row["type"], vertices=tuple(_numbers(vertex) for vertex in row["vertices"]), **lists)
-
-
-def _hole(row: dict[str, Any]) -> Hole:
-    return Hole(position=_numbers(row["position"]), direction=_numbers(row["direction"]), radius=row["radius"])
-
-
-def _surface(row: dict[str, Any]) -> Surface:
-    return Surface(
-        vertices=tuple(_numbers(vertex) for vertex in row["vertices"]),
-        triangles=tuple(_numbers(triangle) for triangle in row["triangles"]),
+def _action(row: _Action) -> Action:
+    term = parse_term(row.term, where=HEAD)
+    return Action(
+        term=term if isinstance(term, Term) else Term(str(term)),
+        start=row.start,
+        end=row.end,
+        outcome=row.outcome,
+        evidence=row.evidence,
     )
-
-
-def _shape(row: dict[str, Any]) -> Shape:
-    surface = row.get("surface")
-    return Shape(
-        geoms=tuple(_geom(geom) for geom in row["geoms"]),
-        profile=tuple(_numbers(point) for point in row.get("profile", ())),
-        surface=None if surface is None else _surface(surface),
-        holes=tuple(_hole(hole) for hole in row.get("holes", ())),
-        colour=_numbers(row["colour"]),
-    )
-
-
-def _thing(row: dict[str, Any]) -> Thing:
-    decoded: dict[str, Any] = {"shape": _shape(row["shape"]), "roles": frozenset(row["roles"])}
-    decoded |= {name: _numbers(row[name]) for name in ("position", "orientation")}
-    return Thing(**(row | decoded))
-
-
-def _action(row: dict[str, Any]) -> Action:
-    term = parse_term(row["term"], where=HEAD)
-    decoded: dict[str, Any] = {"term": term if isinstance(term, Term) else Term(str(term))}
-    return Action(**(row | decoded))

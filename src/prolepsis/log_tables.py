@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, cast
 
@@ -11,18 +11,41 @@ import numpy.typing as npt
 import pyarrow as arrow  # pyright: ignore[reportMissingTypeStubs]
 import pyarrow.parquet as parquet  # pyright: ignore[reportMissingTypeStubs]
 
-from prolepsis.errors import LogError
+from prolepsis.errors import LogError, brief
 from prolepsis.log import Bonds, Contacts, Detachments
 from prolepsis.things import FloatArray, IntArray
 
 Columns = Mapping[str, npt.NDArray[Any]]
+Kinds = Mapping[str, str]
+"""What each column of a table consists of."""
+
+_TYPES: Mapping[str, type[np.generic]] = {
+    "double": np.float64,
+    "float": np.float32,
+    "int64": np.int64,
+    "int32": np.int32,
+    "int16": np.int16,
+}
+"""What columns may consist of, as Parquet calls it."""
+MOST_COLUMNS = 10_000
+MOST_NUMBERS = 2**28
+"""Of a table: 2 GB, or an hour of ten things."""
 
 POSE_COLUMNS = ("x", "y", "z", "qw", "qx", "qy", "qz")
+_VECTORS = ("force", "normal", "point")
+_TOUCHING = tuple(f"{name}_{axis}" for name in _VECTORS for axis in "xyz")
+
+POSES: Kinds = {"thing": "int64", "carrier": "int64", **dict.fromkeys(POSE_COLUMNS, "double")}
+CONTACTS: Kinds = {**dict.fromkeys(("tick", "a", "b"), "int64"), **dict.fromkeys((*_TOUCHING, "peak"), "double")}
+BONDS: Kinds = dict.fromkeys(("a", "b", "start", "end"), "int64")
+DETACHMENTS: Kinds = {**dict.fromkeys(("tick", "thing", "a", "b"), "int64"), "force": "double"}
 
 
-def write_table(file: Path, columns: Columns) -> None:
-    """Write columns of equal length. Equal columns give equal bytes."""
+def write_table(file: Path, columns: Columns, kinds: Kinds | None = None) -> None:
+    """Write columns of equal length, as numbers of some kinds. Equal columns give equal bytes."""
     writer = cast(Any, parquet)
+    if kinds is not None:
+        columns = {name: column.astype(_TYPES[kinds[name]], copy=False) for name, column in columns.items()}
     table = cast(Any, arrow).table({name: np.ascontiguousarray(column) for name, column in columns.items()})
     floats = [name for name, column in columns.items() if column.dtype.kind == "f"]
     # Neighbours in a long column of 32-bit whole numbers differ by little.
@@ -41,17 +64,48 @@ def write_table(file: Path, columns: Columns) -> None:
     )
 
 
-def read_table(file: Path) -> dict[str, npt.NDArray[Any]]:
+def read_table(file: Path, *allowed: Kinds) -> dict[str, npt.NDArray[Any]]:
     """Return the columns of a table, its page checksums verified.
 
+    Args:
+        file: Where it is.
+        allowed: What its columns may be, one or the other; if none is given, any numbers.
+
     Raises:
-        LogError: If the file is no such table.
+        LogError: If the file is no such table, or would be too large in memory.
     """
     try:
-        table = cast(Any, parquet).read_table(file, page_checksum_verification=True, use_threads=False)
-    except (OSError, cast(Any, arrow).ArrowException) as error:
-        raise LogError(f"{file}: cannot be read: {str(error).splitlines()[0]}") from None
+        with cast(Any, parquet).ParquetFile(file, page_checksum_verification=True) as opened:
+            _check_size(file, opened, allowed)
+            table = opened.read(use_threads=False)
+    except (OSError, MemoryError, cast(Any, arrow).ArrowException) as error:
+        raise LogError(f"{file}: cannot be read: {(str(error) or type(error).__name__).splitlines()[0]}") from None
+    if any(column.null_count for column in table.columns):
+        raise LogError(f"{file}: a row lacks a number")
     return {name: table.column(name).to_numpy() for name in table.column_names}
+
+
+def _check_size(file: Path, opened: Any, allowed: Sequence[Kinds]) -> None:
+    """Check by the description of a table, before it is read, what would come out of it.
+
+    Raises:
+        LogError: If that is more than a log has, or something else than numbers.
+    """
+    about, names = opened.metadata, [str(name) for name in opened.schema_arrow.names]
+    kinds = {name: str(opened.schema_arrow.field(i).type) for i, name in enumerate(names)}
+    for name, kind in kinds.items():
+        if kind not in _TYPES:
+            raise LogError(f"{file}: {brief(name)} consists of {brief(kind)}; known: {', '.join(_TYPES)}")
+    if len(kinds) < len(names):
+        raise LogError(f"{file}: two columns have the same name")
+    if allowed and kinds not in allowed:
+        columns = ", ".join(f"{name} ({kind})" for name, kind in allowed[0].items())
+        raise LogError(f"{file}: has other columns than {columns}")
+    if about.num_row_groups > 1 or len(names) > MOST_COLUMNS or about.num_rows * len(names) > MOST_NUMBERS:
+        raise LogError(
+            f"{file}: has {about.num_rows} rows of {len(names)} columns in {about.num_row_groups} parts; at most"
+            f" {MOST_NUMBERS} numbers in {MOST_COLUMNS} columns and 1 part are read"
+        )
 
 
 def pose_columns(poses: FloatArray, carrier: IntArray) -> Columns:
@@ -66,12 +120,9 @@ def pose_columns(poses: FloatArray, carrier: IntArray) -> Columns:
 def poses_from(columns: Columns, ticks: int, things: int) -> tuple[FloatArray, IntArray]:
     """Return poses (T, n, 7) and carriers (T, n) from long columns."""
     by_thing = np.stack([columns[name] for name in POSE_COLUMNS], axis=-1).reshape(things, ticks, 7)
-    poses = np.ascontiguousarray(by_thing.transpose(1, 0, 2), dtype=np.float64)
-    carrier = np.ascontiguousarray(columns["carrier"].reshape(things, ticks).T, dtype=np.int64)
+    poses = np.ascontiguousarray(by_thing.transpose(1, 0, 2))
+    carrier = np.ascontiguousarray(columns["carrier"].reshape(things, ticks).T)
     return poses, carrier
-
-
-_VECTORS = ("force", "normal", "point")
 
 
 def contact_columns(contacts: Contacts) -> Columns:

@@ -23,6 +23,13 @@ Column = npt.NDArray[Any]
 _AXES = ("x", "y", "z")
 _WHOLE_AXES = tuple(f"{axis}_in_10_um" for axis in _AXES)
 
+FRAMES: Mapping[str, str] = {"tick": "int64"}
+KINDS: Mapping[str, str] = {"stuff": "int64", "mass": "double", "volume": "double"}
+_KEYS = {"particle": "int64", "holder": "int16"}
+WHOLE_PLACES: Mapping[str, str] = {**_KEYS, **dict.fromkeys(_WHOLE_AXES, "int32")}
+FINE_PLACES: Mapping[str, str] = {**_KEYS, **dict.fromkeys(_AXES, "float")}
+"""What the columns of the tables consist of, as ``log_tables`` has it."""
+
 
 def rounded(position: npt.NDArray[np.floating[Any]]) -> npt.NDArray[np.float32]:
     """Return positions [m] rounded to ``STEP``, of any shape."""
@@ -50,6 +57,11 @@ def place_columns(particles: Particles) -> Mapping[str, Column]:
     if whole is None:
         return keys | {axis: by_particle[:, i] for i, axis in enumerate(_AXES)}
     return keys | {axis: whole[:, i] for i, axis in enumerate(_WHOLE_AXES)}
+
+
+def place_kinds(columns: Mapping[str, Column]) -> Mapping[str, str]:
+    """Return what the columns of ``place_columns`` consist of."""
+    return WHOLE_PLACES if _WHOLE_AXES[0] in columns else FINE_PLACES
 
 
 def particles_from(

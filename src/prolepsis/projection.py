@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import shutil
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, cast
 
-from prolepsis.errors import InputError, LogError, ScenarioError
+from prolepsis.errors import InputError, LogError, ScenarioError, brief
 from prolepsis.kernels import are_kept
 from prolepsis.log import Log
 from prolepsis.log_files import read_log_files, write_log_files
@@ -18,7 +17,16 @@ from prolepsis.saved import read_timeline_files, write_timeline_files
 from prolepsis.scenario import Parameter, Scenario
 from prolepsis.scenario_file import DEFAULT_PARTICLES, read_robot, write_robot
 from prolepsis.scene.scene import Scene
-from prolepsis.sealed import check_replaceable, read_sealed, to_json, write_sealed
+from prolepsis.sealed import (
+    MANIFEST,
+    check_replaceable,
+    is_plain_name,
+    read_json,
+    read_sealed,
+    read_text,
+    to_json,
+    write_sealed,
+)
 from prolepsis.terms import Value, format_value, parse_term
 from prolepsis.timeline import Timeline
 
@@ -66,10 +74,13 @@ class Projection:
         timeline = read_timeline_files(path)
         log = read_log_files(path)
         try:
-            scenario = _scenario(json.loads((path / SCENARIO).read_text(encoding="utf-8")), path)
-            world = (path / WORLD).read_text(encoding="utf-8")
-        except (OSError, KeyError, TypeError, ValueError, InputError) as error:
-            raise LogError(f"{path}: holds no whole projection: {error}") from None
+            scenario = _scenario(read_json(path / SCENARIO), path)
+            world = read_text(path / WORLD)
+        except FileNotFoundError as error:
+            raise LogError(f"{path}: holds no whole projection (it has no {Path(str(error.filename)).name})") from None
+        # What is no scenario fails in one of these ways, depending on where.
+        except (AttributeError, KeyError, TypeError, ValueError, InputError) as error:
+            raise LogError(f"{path}: its scenario is malformed: {brief(error, 200)}") from None
         scene = Scene(things=log.things, domain=timeline.domain, gravity=log.gravity)
         return cls(scenario=scenario, scene=scene, log=log, timeline=timeline, world=world)
 
@@ -80,7 +91,8 @@ class Projection:
         scenario = self.scenario
         own = scenario.robot if isinstance(scenario.robot, OwnRobot) else None
         models = () if own is None else (scenario.path.parent / own.file,)
-        names = list(_copy_names((*scenario.situation, *models)).items())
+        taken = {SCENARIO, MANIFEST, *(file.name for file in path.iterdir())}
+        names = list(_copy_names((*scenario.situation, *models), taken).items())
         for name, source in names:
             shutil.copyfile(source, path / name)
         if own is not None:
@@ -160,17 +172,23 @@ def read_scenario(scenario: Scenario | str | Path, settings: Mapping[str, float 
     return read.with_settings(settings)
 
 
-def _copy_names(sources: tuple[Path, ...]) -> dict[str, Path]:
-    """Return for each file the name of its copy, distinct also when the files' names are not."""
+def _copy_names(sources: tuple[Path, ...], taken: Collection[str]) -> dict[str, Path]:
+    """Return for each file the name of its copy, distinct from each other and from those that are ``taken``."""
     names: dict[str, Path] = {}
     for i, source in enumerate(sources):
-        names[source.name if source.name not in (*names, WORLD) else f"{i}_{source.name}"] = source
+        name = _as_text(source.name)
+        names[name if name not in (*names, *taken) else f"{i}_{name}"] = source
     return names
+
+
+def _as_text(name: str) -> str:
+    """Return the name of a file as Unicode, which it need not be."""
+    return name.encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")
 
 
 def _scenario_row(scenario: Scenario, situation: list[str]) -> dict[str, Any]:
     return {
-        "name": Path(scenario.path).name,
+        "name": _as_text(Path(scenario.path).name),
         "situation": situation,
         "plan": format_value(scenario.plan),
         "bound_plan": format_value(scenario.bound_plan()),
@@ -192,15 +210,32 @@ def _scenario(row: dict[str, Any], path: Path) -> Scenario:
     if not isinstance(row["seed"], int):
         raise ScenarioError(f"{SCENARIO}: seed is not a whole number")
     return Scenario(
-        path=path / cast(str, row["name"]),
-        situation=tuple(path / name for name in row["situation"]),
+        path=path / _name(row["name"]),
+        situation=tuple(path / _name(name) for name in row["situation"]),
         plan=plan,
         parameters={name: Parameter(value=each["value"], unit=each["unit"]) for name, each in parameters.items()},
-        knowledge=row["knowledge"],
-        robot=read_robot(cast("dict[str, Any]", robot), SCENARIO) if isinstance(robot, dict) else robot,
+        knowledge=dict(row["knowledge"]),
+        robot=_own_robot(cast("dict[str, Any]", robot)) if isinstance(robot, dict) else robot,
         duration=row["duration"],
         seed=row["seed"],
         draw=row.get("draw", False),
         particles=row.get("particles", DEFAULT_PARTICLES),
         monitors={name: tuple(chosen) for name, chosen in row.get("monitors", {}).items()},
     )
+
+
+def _own_robot(table: dict[str, Any]) -> OwnRobot:
+    robot = read_robot(table, SCENARIO)
+    _name(robot.file)
+    return robot
+
+
+def _name(name: Any) -> str:
+    """Return a name if it is one of a file in the same folder: a folder of a stranger's leads nowhere else.
+
+    Raises:
+        ScenarioError: If it is not.
+    """
+    if not isinstance(name, str) or not is_plain_name(name):
+        raise ScenarioError(f"{SCENARIO}: {brief(repr(name))} is no name of a file in the folder")
+    return name

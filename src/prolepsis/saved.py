@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import json
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from prolepsis.domain import Domain
-from prolepsis.errors import InputError, LogError
-from prolepsis.sealed import read_sealed, to_json
+from prolepsis.errors import InputError, LogError, brief
+from prolepsis.sealed import read_json, read_sealed, to_json
 from prolepsis.timeline import Timeline
 
 DOMAIN, TIMELINE = "domain.json", "timeline.json"
+LONGEST = 1e9
+"""No run is as long [s]: thirty years."""
 
 
 def read_timeline(folder: str | Path) -> Timeline:
@@ -31,15 +32,48 @@ def read_timeline_files(path: Path) -> Timeline:
         LogError: If it holds none.
     """
     try:
-        rows: dict[str, Any] = json.loads((path / TIMELINE).read_text(encoding="utf-8"))
-        domain: dict[str, Any] = json.loads((path / DOMAIN).read_text(encoding="utf-8"))
-        known = Domain(**{name: tuple(tuple(row) for row in value) for name, value in domain.items()})
-        return Timeline.from_json(rows["facts"], dt=rows["dt"], duration=rows["duration"], domain=known)
+        told: Any = read_json(path / TIMELINE)
+        domain = _domain(read_json(path / DOMAIN))
+        if not isinstance(told, dict) or not isinstance(told.get("facts"), list):  # pyright: ignore[reportUnknownMemberType]
+            raise ValueError(f"{TIMELINE} must be an object with dt, duration and facts")
+        table = cast("dict[str, Any]", told)
+        dt, duration = _time(table.get("dt"), 1e-9), _time(table.get("duration"), 0.0)
+        return Timeline.from_json(table["facts"], dt=dt, duration=duration, domain=domain)
     except FileNotFoundError as error:
         name = Path(str(error.filename)).name
         raise LogError(f"{path}: holds a log but no projection (it has no {name})") from None
-    except (KeyError, TypeError, ValueError, InputError) as error:
-        raise LogError(f"{path}: its timeline is malformed: {type(error).__name__}: {error}") from None
+    except (ValueError, InputError) as error:
+        raise LogError(f"{path}: its timeline is malformed: {brief(error, 200)}") from None
+
+
+def _time(number: Any, least: float) -> float:
+    if isinstance(number, bool) or not isinstance(number, int | float) or not least <= number < LONGEST:
+        raise ValueError(f"{TIMELINE}: a time of {brief(number)} s is not from {least:g} to {LONGEST:g}")
+    return float(number)
+
+
+def _domain(table: Any) -> Domain:
+    """Return the domain whose rows these are; each has as many texts as its kind of row, and values may be numbers."""
+    columns = {each.name: 3 if each.name in ("values", "relations") else 2 for each in fields(Domain)}
+    if not isinstance(table, dict) or cast("dict[str, Any]", table).keys() != columns.keys():
+        raise ValueError(f"{DOMAIN} must be an object with {', '.join(columns)}")
+    rows = cast("dict[str, Any]", table)
+    for name, count in columns.items():
+        kinds = (str,) * (count - 1) + ((str, int, float) if name == "values" else str,)
+        if not isinstance(rows[name], list) or not all(_is_row(row, kinds) for row in rows[name]):
+            raise ValueError(f"{DOMAIN}: {name} must be a list of rows of {count}")
+    return Domain(**{name: tuple(tuple(row) for row in rows[name]) for name in columns})
+
+
+def _is_row(row: Any, kinds: tuple[Any, ...]) -> bool:
+    return (
+        isinstance(row, list)
+        and len(cast("list[Any]", row)) == len(kinds)
+        and all(
+            isinstance(cell, kind) and not isinstance(cell, bool)
+            for cell, kind in zip(cast("list[Any]", row), kinds, strict=True)
+        )
+    )
 
 
 def write_timeline_files(timeline: Timeline, path: Path) -> None:

@@ -30,8 +30,8 @@ MOST_FILES = 1000
 MOST_BYTES = 8 * 2**30
 """Of all files of a folder: some hours of a scene."""
 MOST_MANIFEST_BYTES = 2**20
-MOST_JSON_BYTES = 64 * 2**20
-"""Of one file of JSON, which takes some twenty times as much memory."""
+MOST_TEXT_BYTES = 64 * 2**20
+"""Of one file of JSON, which may take some twenty times as much memory."""
 _MADE_BY = ("prolepsis", "mujoco", "numpy")
 _DIGEST = re.compile("[0-9a-f]{64}")
 
@@ -77,16 +77,25 @@ def read_sealed(folder: str | Path) -> Path:
     return path
 
 
+def read_text(file: Path) -> str:
+    """Return the text of a file in a checked folder.
+
+    Raises:
+        ValueError: If it is too large, or no UTF-8.
+    """
+    size = file.stat().st_size
+    if size > MOST_TEXT_BYTES:
+        raise ValueError(f"{file.name} has {size} bytes; at most {MOST_TEXT_BYTES} are read")
+    return file.read_text(encoding="utf-8")
+
+
 def read_json(file: Path) -> Any:
     """Return what a file of JSON in a checked folder says.
 
     Raises:
         ValueError: If it is too large, too deep or none, or has numbers that are not finite.
     """
-    size = file.stat().st_size
-    if size > MOST_JSON_BYTES:
-        raise ValueError(f"{file.name} has {size} bytes; at most {MOST_JSON_BYTES} are read")
-    return _parsed(file.read_text(encoding="utf-8"))
+    return _parsed(read_text(file))
 
 
 def to_json(value: Any) -> str:
@@ -175,7 +184,7 @@ def _entries(path: Path, manifest: Mapping[str, Any]) -> dict[str, dict[str, Any
     if len(entries) > MOST_FILES:
         raise LogError(f"{path / MANIFEST}: lists {len(entries)} files; at most {MOST_FILES} are read")
     for name, entry in entries.items():
-        if not _is_plain_name(name):
+        if not is_plain_name(name):
             raise LogError(f"{path / MANIFEST}: lists {brief(repr(name))}, which is no name of a file in the folder")
         if not _is_entry(entry):
             raise LogError(f"{path / MANIFEST}: lists {brief(name)} without its size and SHA-256")
@@ -185,7 +194,8 @@ def _entries(path: Path, manifest: Mapping[str, Any]) -> dict[str, dict[str, Any
     return entries
 
 
-def _is_plain_name(name: str) -> bool:
+def is_plain_name(name: str) -> bool:
+    """Return whether a name is one of a file in the folder itself."""
     return name not in ("", ".", "..", MANIFEST) and len(name) <= 255 and not {"/", "\0"} & set(name)
 
 

@@ -13,12 +13,14 @@ from itertools import groupby
 from typing import Any, Literal, cast
 
 from prolepsis.domain import Domain
-from prolepsis.errors import InputError
+from prolepsis.errors import InputError, brief
 from prolepsis.terms import Term, Value
 
 Kind = Literal["fluent", "event"]
 Argument = str | int | float
 Evidence = Mapping[str, "float | str"]
+_GREATEST = 1e300
+"""What is greater is no number of a fact."""
 
 
 def _no_evidence() -> dict[str, float | str]:
@@ -181,19 +183,40 @@ def _merged_evidence(first: Evidence, second: Evidence) -> dict[str, float | str
     return merged
 
 
-def _read_fact(row: Mapping[str, Any], number: int) -> Fact:
-    try:
-        kind = cast(Kind, row["kind"])
-        fact = Fact(
-            kind=kind,
-            type=row["type"],
-            args=tuple(row.get("args", ())),
-            start=float(row["start"]),
-            end=float(row["end"]),
-            evidence=dict(row.get("evidence") or {}),
-        )
-    except (KeyError, TypeError, ValueError) as error:
-        raise InputError(f"timeline, fact {number}: not a fact: {error!r}") from error
+def _read_fact(row: Any, number: int) -> Fact:
+    """Return the fact that a row of plain data says.
+
+    Raises:
+        InputError: If it is none.
+    """
+    if not isinstance(row, Mapping):
+        raise InputError(f"timeline, fact {number}: not a fact: {brief(repr(row))}")
+    table = cast("Mapping[Any, Any]", row)
+    kind, name, start, end = (table.get(key) for key in ("kind", "type", "start", "end"))
+    args: Any = table.get("args") or ()
+    evidence: Any = table.get("evidence") or {}
     if kind not in ("fluent", "event"):
-        raise InputError(f"timeline, fact {number}: no kind {kind!r}; known: fluent, event")
-    return fact
+        raise InputError(f"timeline, fact {number}: no kind {brief(repr(kind))}; known: fluent, event")
+    if not (
+        isinstance(name, str)
+        and _is_number(start)
+        and _is_number(end)
+        and isinstance(args, list | tuple)
+        and all(isinstance(each, str) or _is_number(each) for each in cast("list[Any]", args))
+        and isinstance(evidence, Mapping)
+        and all(isinstance(key, str) for key in cast("Mapping[Any, Any]", evidence))
+        and all(isinstance(each, str) or _is_number(each) for each in cast("Mapping[Any, Any]", evidence).values())
+    ):
+        raise InputError(f"timeline, fact {number}: not a fact: {brief(repr(table))}")
+    return Fact(
+        kind=kind,
+        type=name,
+        args=tuple(cast("list[Argument]", args)),
+        start=float(cast(float, start)),
+        end=float(cast(float, end)),
+        evidence=dict(cast("Mapping[str, float | str]", evidence)),
+    )
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < _GREATEST

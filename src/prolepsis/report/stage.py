@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from prolepsis.engine import mujoco
+from prolepsis.errors import InputError, brief
 from prolepsis.log import Log
 from prolepsis.report.droplets import Droplets, Wet
 from prolepsis.report.framing import corners
@@ -63,7 +64,10 @@ class Stage:
         for i, thing in enumerate(log.things):
             if thing.shape.geoms:
                 self._add(spec, i, thing)
-        self.model: Any = spec.compile()
+        try:
+            self.model: Any = spec.compile()
+        except ValueError as error:
+            raise InputError(f"the shapes of the log cannot be drawn: {brief(error, 160)}") from None
         self.data: Any = mujoco.MjData(self.model)
         names = [f"thing{i}" for i in range(len(log.things))]
         self._puppets = [
