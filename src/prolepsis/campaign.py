@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import itertools
-import multiprocessing
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from prolepsis.errors import InputError, InvalidSimulationError, ProlepsisError
+from prolepsis.errors import InputError, InvalidSimulationError, ProlepsisError, error_line
 from prolepsis.outcome import Grasp, judge_grasp
 from prolepsis.projection import Progress, project, read_scenario
 from prolepsis.scenario import Scenario
 from prolepsis.terms import Value
+from prolepsis.workers import Lost, carry_out
 
 WORKERS = 2
 """Projections at a time; each takes one core."""
@@ -35,6 +35,8 @@ class Row:
     """Why the run gave no answer, in one line."""
     invalid: bool = False
     """Whether it was the physics that failed."""
+    unexpected: str | None = None
+    """Of a failure that nobody foresaw, where it happened as Python tells it, or what became of the process."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -120,24 +122,18 @@ def sweep(
     # What is wrong with a file or a name is told once, before any process starts.
     base = read_scenario(scenario, settings or {})
     scenarios = [base.with_settings(run) for run in runs]
-    # A forked process would inherit the open OpenGL and Prolog connections of this one.
-    context = multiprocessing.get_context("spawn")
-    pool = ProcessPoolExecutor(min(workers, len(runs)), mp_context=context)
-    try:
-        outcomes = Outcomes(rows=_all(pool, scenarios, runs, ask, limit, progress))
-        for _ in range(refine):
-            middles = [(each.low * each.high) ** 0.5 for each in outcomes.transitions()]
-            halves: list[dict[str, float | str]] = [{names[0]: middle} for middle in middles]
-            if halves:
-                more = _all(pool, [base.with_settings(half) for half in halves], halves, ask, limit, progress)
-                outcomes = replace(outcomes, between=(*outcomes.between, *more))
-    finally:
-        pool.shutdown(cancel_futures=True)
+    outcomes = Outcomes(rows=_all(workers, scenarios, runs, ask, limit, progress))
+    for _ in range(refine):
+        middles = [(each.low * each.high) ** 0.5 for each in outcomes.transitions()]
+        halves: list[dict[str, float | str]] = [{names[0]: middle} for middle in middles]
+        if halves:
+            more = _all(workers, [base.with_settings(half) for half in halves], halves, ask, limit, progress)
+            outcomes = replace(outcomes, between=(*outcomes.between, *more))
     return outcomes
 
 
 def _all(
-    pool: ProcessPoolExecutor,
+    workers: int,
     scenarios: Sequence[Scenario],
     runs: Sequence[dict[str, float | str]],
     ask: str | None,
@@ -146,14 +142,17 @@ def _all(
 ) -> tuple[Row, ...]:
     """Return the rows of scenarios, in their order."""
     rows: dict[int, Row] = {}
-    futures: dict[Future[Row], int] = {
-        pool.submit(_run, scenarios[i], run, ask, limit): i for i, run in enumerate(runs)
-    }
-    for done, future in enumerate(as_completed(futures), start=1):
-        rows[futures[future]] = future.result()
-        if progress is not None:
-            progress(f"{done} of {len(runs)} runs done")
+    tasks = [(scenarios[i], run, ask, limit) for i, run in enumerate(runs)]
+    with closing(carry_out(_run, tasks, workers)) as results:
+        for number, found in results:
+            rows[number] = _lost(runs[number], found) if isinstance(found, Lost) else found
+            if progress is not None:
+                progress(f"{len(rows)} of {len(runs)} runs done")
     return tuple(rows[i] for i in range(len(runs)))
+
+
+def _lost(values: dict[str, float | str], lost: Lost) -> Row:
+    return Row(values=values, error=error_line(lost.reason), unexpected=lost.trace or lost.reason)
 
 
 def _run(scenario: Scenario, values: dict[str, float | str], ask: str | None, limit: int | None) -> Row:

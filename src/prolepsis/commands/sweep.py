@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 from typing import TYPE_CHECKING, Any
 
 from prolepsis.commands.output import add_command, add_progress, bindings, plain, progress_line, settings, table
@@ -40,7 +41,7 @@ def add_to(commands: Any) -> None:
     parser.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE", help="value that is the same in all"
     )
-    parser.add_argument("--ask", metavar="GOAL", help="goal to ask of every run; exit status 1 if none has an answer")
+    parser.add_argument("--ask", metavar="GOAL", help="goal to ask of every run; exit status 1 if all say no")
     parser.add_argument(
         "--refine", type=int, default=0, metavar="N", help="halve the interval of each transition force N times"
     )
@@ -69,8 +70,12 @@ def run(given: argparse.Namespace) -> int:
             refine=given.refine,
             progress=show,
         )
-    print(_json(outcomes) if given.json else report(outcomes))
-    return _status(outcomes, given.ask)
+    print(as_json(outcomes) if given.json else report(outcomes))
+    if getattr(given, "traceback", False):
+        for row in outcomes.rows:
+            if row.unexpected:
+                print(row.unexpected, file=sys.stderr)
+    return status_of(outcomes, given.ask)
 
 
 def report(outcomes: Outcomes) -> str:
@@ -114,7 +119,8 @@ def _notes(row: Row) -> list[str]:
     return [bindings(answer) for answer in row.answers] or ["no"]
 
 
-def _json(outcomes: Outcomes) -> str:
+def as_json(outcomes: Outcomes) -> str:
+    """Return one JSON object a row."""
     return "\n".join(json.dumps(_plain(row), ensure_ascii=False) for row in outcomes.rows)
 
 
@@ -137,11 +143,16 @@ def _plain(row: Row) -> dict[str, Any]:
     return result
 
 
-def _status(outcomes: Outcomes, goal: str | None) -> int:
-    """Return 0 if any run was answered, 1 if all said no, 3 or 2 if all failed."""
-    if all(row.error is not None for row in outcomes.rows):
-        return 3 if any(row.invalid for row in outcomes.rows) else 2
-    return 0 if goal is None or any(row.answers for row in outcomes.rows) else 1
+def status_of(outcomes: Outcomes, goal: str | None) -> int:
+    """Return 0 if any run was answered, 1 if all said no; else runs failed: 4, 3 or 2, by the worst of the failures."""
+    failed = [row for row in outcomes.rows if row.error is not None]
+    if any(row.answers if goal is not None else row.error is None for row in outcomes.rows):
+        return 0
+    if not failed:
+        return 1
+    if any(row.unexpected for row in failed):
+        return 4
+    return 3 if any(row.invalid for row in failed) else 2
 
 
 def _values(name: str, text: str) -> list[str]:
