@@ -1,11 +1,100 @@
-"""The user's cache: what is dear to compute and may be thrown away."""
+"""The user's cache: what is dear to compute and may be thrown away, each file sealed by its content.
+
+Anything wrong with it only costs time. A file that does not match its seal is made anew, and a folder that others may
+write in is not used at all: what is in it goes into answers, and some of it is machine code.
+"""
 
 from __future__ import annotations
 
+import hashlib
 import os
+import stat
+import sys
+import tempfile
+from contextlib import suppress
+from functools import lru_cache
 from pathlib import Path
+
+SEAL = b"prolepsis cache 1 "
+"""Begins the first line of a file; the SHA-256 of its name and of what follows the line ends it."""
 
 
 def cache_root() -> Path:
     """Return the folder of everything that is kept for the next time."""
     return Path(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")) / "prolepsis"
+
+
+def read_kept(file: Path) -> bytes | None:
+    """Return what was kept in a file of the cache; None if there is nothing, or nothing that may be trusted."""
+    if not _is_safe(file.parent):
+        return None
+    try:
+        number = os.open(file, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+        with open(number, "rb") as stream:
+            status = os.fstat(number)
+            if not stat.S_ISREG(status.st_mode) or status.st_uid not in (os.geteuid(), 0):
+                return _anew(file)
+            first, _, content = stream.read().partition(b"\n")
+    except FileNotFoundError:
+        return None
+    except OSError:
+        return _anew(file)
+    return content if first == _seal(file, content) else _anew(file)
+
+
+def keep(file: Path, content: bytes) -> None:
+    """Keep something for the next time, if that is possible; whoever reads meanwhile meets the old or the new."""
+    with suppress(OSError):
+        for each in reversed((file.parent, *file.parent.parents)):
+            # Only this user may change what is kept; `parents=True` would not see to that on the way.
+            each.mkdir(mode=0o700, exist_ok=True)
+        if not _is_safe(file.parent):
+            return
+        number, part = tempfile.mkstemp(prefix=".", suffix=".part", dir=file.parent)
+        try:
+            with open(number, "wb") as stream:
+                stream.write(_seal(file, content) + b"\n" + content)
+            os.replace(part, file)
+        finally:
+            with suppress(FileNotFoundError):
+                os.unlink(part)
+
+
+def note(text: str) -> None:
+    """Say something on standard error that does not change an answer, once."""
+    _say(text)
+
+
+@lru_cache(maxsize=256)
+def _say(text: str) -> None:
+    if sys.stderr is not None:  # pyright: ignore[reportUnnecessaryComparison]
+        print(f"prolepsis: note: {text}", file=sys.stderr)
+
+
+def _seal(file: Path, content: bytes) -> bytes:
+    digest = hashlib.sha256(os.fsencode(f"{file.parent.name}/{file.name}\n"))
+    digest.update(content)
+    return SEAL + digest.hexdigest().encode()
+
+
+def _anew(file: Path) -> None:
+    note(f"{file}: is damaged, so what it held is made anew")
+
+
+def _is_safe(folder: Path) -> bool:
+    """Return whether only this user, and who rules the system, may change what is in a folder of the cache."""
+    path = Path(os.path.realpath(folder))
+    for each in (path, *path.parents):
+        try:
+            status = each.stat()
+        except FileNotFoundError:
+            continue
+        except OSError:
+            return False
+        others = status.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
+        # Where the sticky bit is set, others may write but not rename what is not theirs.
+        guarded = status.st_mode & stat.S_ISVTX and each != path
+        if status.st_uid not in (os.geteuid(), 0) or (others and not guarded):
+            note(f"{each}: others may write there, so nothing is kept in or taken from the cache in {folder}")
+            return False
+    return True

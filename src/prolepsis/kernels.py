@@ -1,21 +1,26 @@
-"""Compiled kernels: numba's compiler, told to keep what it compiles in a folder for this version of the sources.
+"""Compiled kernels: numba compiles them, and what it has compiled is kept in the cache for this version of the sources.
 
-numba recompiles a kernel when its own file has changed, but not when a kernel that is compiled into it has.
+numba itself unpickles whatever lies in its folder, and two processes that write at once can mix its files up. So they
+are kept as all of the cache is: sealed, one file for each kernel and types of its arguments.
 """
 
 from __future__ import annotations
 
 import hashlib
 import os
+import pickle
+import sys
 from collections.abc import Callable
 from functools import lru_cache, update_wrapper
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
-from prolepsis.cache import cache_root
+from prolepsis.cache import cache_root, keep, read_kept
 
-ROOMS = ("fields", "fluents", "liquid", "report")
-"""Folders of the package that have kernels, with what is below them."""
+ROOMS = ("fields", "fluents", "liquid", "report", "shapes")
+"""Folders of the package that have kernels or kept arrays, with what is below them."""
+MADE_BY = ("numba", "llvmlite", "numpy", "scipy", "coacd")
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -48,23 +53,67 @@ class _Kernel:
         if self._compiled is None:
             import numba  # pyright: ignore[reportMissingTypeStubs]
 
-            config = cast(Any, numba).config
-            if not config.CACHE_DIR:
-                config.CACHE_DIR = str(_folder())
-            self._compiled = cast(Any, numba).njit(**self._options)(self._function)
+            compiled = cast(Any, numba).njit(**(self._options | {"cache": False}))(self._function)
+            # With NUMBA_DISABLE_JIT it is the function itself.
+            if self._options.get("cache") and hasattr(compiled, "_cache"):
+                compiled._cache = _Kept(self._function)
+            self._compiled = compiled
         return self._compiled
+
+
+class _Kept:
+    """What numba calls the cache of one kernel."""
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        self._function = function
+        self.cache_path = str(_folder())
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """Return the kernel compiled for a signature, or None."""
+        from numba.core.compiler import CompileResult  # pyright: ignore[reportMissingTypeStubs]
+
+        target_context.refresh()
+        content = read_kept(self._file(sig, target_context.codegen()))
+        # Its seal has been checked; nothing else may come here.
+        return None if content is None else cast(Any, CompileResult)._rebuild(target_context, *pickle.loads(content))
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        """Keep what was compiled for a signature."""
+        from numba.core import serialize  # pyright: ignore[reportMissingTypeStubs]
+
+        if not data.library.has_dynamic_globals and all(lifted.can_cache for lifted in data.lifted):
+            keep(self._file(sig, data.codegen), cast(Any, serialize).dumps(data._reduce()))
+
+    def enable(self) -> None:
+        """It is always."""
+
+    def disable(self) -> None:
+        """It never is."""
+
+    def flush(self) -> None:
+        """What is sealed stays."""
+
+    def _file(self, sig: Any, codegen: Any) -> Path:
+        function = self._function
+        key = repr((function.__module__, function.__qualname__, sig, codegen.magic_tuple()))
+        return _folder() / f"{function.__name__}-{hashlib.sha256(key.encode()).hexdigest()[:32]}"
 
 
 def are_kept() -> bool:
     """Return whether kernels of these sources have been compiled on this machine before."""
-    return Path(os.environ.get("NUMBA_CACHE_DIR") or _folder()).is_dir()
+    return _folder().is_dir()
 
 
 @lru_cache(maxsize=1)
-def _folder() -> Path:
+def sources_digest() -> str:
+    """Return a digest of the sources of kernels and kept arrays, and of the versions of what computes them."""
     package = Path(__file__).parent
-    digest = hashlib.sha256()
+    digest = hashlib.sha256(repr((sys.version_info, [version(name) for name in MADE_BY])).encode())
     for room in ROOMS:
         for file in sorted((package / room).rglob("*.py")):
             digest.update(file.read_bytes())
-    return cache_root() / f"kernels-{digest.hexdigest()[:16]}"
+    return digest.hexdigest()
+
+
+def _folder() -> Path:
+    return Path(os.environ.get("NUMBA_CACHE_DIR") or cache_root()) / f"kernels-{sources_digest()[:16]}"

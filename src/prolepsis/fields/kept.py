@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import hashlib
-import os
+import io
 from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
-from prolepsis.cache import cache_root
+from prolepsis.cache import cache_root, keep, note, read_kept
+from prolepsis.kernels import sources_digest
 from prolepsis.things import FloatArray
 
 
@@ -18,24 +19,22 @@ def kept_array(kind: str, sources: Sequence[Any], compute: Callable[[], FloatArr
 
     Args:
         kind: What it is, a word.
-        sources: Arrays that it follows from.
+        sources: Arrays that it follows from; what computes it counts, too.
         compute: Computes it.
     """
-    digest = hashlib.sha256()
+    digest = hashlib.sha256(sources_digest().encode())
     for source in sources:
         array = np.ascontiguousarray(source)
         digest.update(str((array.dtype, array.shape)).encode() + array.tobytes())
-    file = cache_root() / f"{kind}-{digest.hexdigest()[:32]}.npy"
-    try:
-        return np.load(file, allow_pickle=False)
-    except (OSError, ValueError, EOFError):
-        found = compute()
-    try:
-        file.parent.mkdir(parents=True, exist_ok=True)
-        scratch = file.with_name(f"{file.name}.{os.getpid()}")
-        with scratch.open("wb") as stream:
-            np.save(stream, found, allow_pickle=False)
-        scratch.replace(file)
-    except OSError:
-        pass
+    file = cache_root() / "arrays" / f"{kind}-{digest.hexdigest()[:32]}"
+    content = read_kept(file)
+    if content is not None:
+        try:
+            return np.load(io.BytesIO(content), allow_pickle=False)
+        except (OSError, ValueError, EOFError):
+            note(f"{file}: is no array, so it is made anew")
+    found = compute()
+    stream = io.BytesIO()
+    np.save(stream, found, allow_pickle=False)
+    keep(file, stream.getvalue())
     return found

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 
+from prolepsis.kernels import njit
 from prolepsis.things import FloatArray
-
-_compiled: Any = numba.njit(cache=True, fastmath=True)
-"""``numba.njit`` has no types of its own."""
 
 NOTHING = 1.0e9
 """Distance of a pixel in which there is no liquid [m]."""
 
 
-@_compiled
+@njit(cache=True, fastmath=True)
 def splat(places: Any, kinds: Any, radius: float, focal: float, behind: Any, count: int) -> Any:
     """Return how near the liquid is and how thick each kind of it is, pixel by pixel.
 
@@ -57,7 +54,7 @@ def splat(places: Any, kinds: Any, radius: float, focal: float, behind: Any, cou
     return nearest, thickness
 
 
-@_compiled
+@njit(cache=True, fastmath=True)
 def _smoothed_along_rows(nearest: Any, reach: int, step: float) -> Any:
     height, width = nearest.shape
     result = nearest.copy()
