@@ -16,8 +16,8 @@ import importlib
 import os
 from typing import TYPE_CHECKING, Any
 
-# The matrices here are small: more threads of the linear algebra library only get in each other's way. Whoever
-# wants them sets the variable; it counts when numpy has not been imported yet.
+# The matrices here are small: more threads of the linear algebra library only get in each other's way, and while a
+# run is computed there is one in any case (``threads``).
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 if TYPE_CHECKING:

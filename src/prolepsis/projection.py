@@ -28,6 +28,7 @@ from prolepsis.sealed import (
     write_sealed,
 )
 from prolepsis.terms import Value, format_value, parse_term
+from prolepsis.threads import one_thread
 from prolepsis.timeline import Timeline
 
 Progress = Callable[[str], None]
@@ -101,6 +102,7 @@ class Projection:
         (path / SCENARIO).write_text(to_json(_scenario_row(scenario, situation)), encoding="utf-8")
 
 
+@one_thread()
 def project(
     scenario: Scenario | str | Path,
     *,

@@ -22,6 +22,7 @@ from prolepsis.robots.control import Controls
 from prolepsis.scene.world import MAX_STEP, World
 from prolepsis.state import State
 from prolepsis.terms import Term
+from prolepsis.threads import one_thread
 
 TICK = 1.0e-3
 """The clock of the log [s]."""
@@ -33,6 +34,7 @@ MAX_SPEED = 200.0
 """No thing of a household moves faster [m/s]; what does has diverged."""
 
 
+@one_thread()
 def simulate(
     world: World,
     program: Program,

@@ -7,9 +7,11 @@ from prolepsis.fluents.actions import action_facts
 from prolepsis.fluents.observation import observe
 from prolepsis.fluents.registry import GROUNDINGS
 from prolepsis.log import Log
+from prolepsis.threads import one_thread
 from prolepsis.timeline import Fact, Timeline, make_timeline
 
 
+@one_thread()
 def recognize(log: Log, *, domain: Domain | None = None) -> Timeline:
     """Return which fluents held and which events occurred in a log.
 

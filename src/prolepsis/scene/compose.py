@@ -26,6 +26,7 @@ from prolepsis.shapes import SHAPES
 from prolepsis.shapes.holes import refuse_holes
 from prolepsis.shapes.mesh import mesh
 from prolepsis.things import Quaternion, Shape, Thing
+from prolepsis.threads import one_thread
 
 ROLES = (
     "Gripper",
@@ -67,6 +68,7 @@ ATTRIBUTES = {"wet": "WetThing", "dirty": "DirtyThing", "broken": "BrokenThing"}
 GRIPPER_SHAPE, ROBOT_SHAPE, MESH_SHAPE = "parallelGripper", "articulated", "mesh"
 
 
+@one_thread()
 def compose(kb: KnowledgeBase, *, particles: int = DEFAULT_PARTICLES, robot: Robot | None = None) -> Scene:
     """Return the scene of a situation.
 

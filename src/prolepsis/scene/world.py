@@ -17,6 +17,7 @@ from prolepsis.scene.robot_world import add_robot, posture, robot_of_gripper, ru
 from prolepsis.scene.scene import Scene
 from prolepsis.scene.yielding_bowl import PANEL, add_panels
 from prolepsis.things import Thing, Triple
+from prolepsis.threads import one_thread
 
 SMOOTH_SOLREF = (0.005, 1.0)
 SMOOTH_SOLIMP = (0.0, 0.95, 0.001, 0.5, 2.0)
@@ -74,6 +75,7 @@ class World:
         return self.spec.to_xml()
 
 
+@one_thread()
 def compile_world(scene: Scene) -> World:
     """Return the world of a scene.
 
