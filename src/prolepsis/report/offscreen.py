@@ -17,7 +17,14 @@ from prolepsis.report.liquid import Eye, Picture
 from prolepsis.things import FloatArray
 
 BACKENDS = ("egl", "osmesa")
+_opened_by: int | None = None
+"""The process that first opened OpenGL, if any has."""
 ADVICE = "apt install libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri"
+
+
+def opened_by_parent() -> bool:
+    """Return whether a process from which this one was forked has opened OpenGL: its threads are missing here."""
+    return _opened_by not in (None, os.getpid())
 
 
 def open_context(width: int, height: int) -> tuple[str, Any]:
@@ -26,6 +33,8 @@ def open_context(width: int, height: int) -> tuple[str, Any]:
     Raises:
         MissingToolError: If none works.
     """
+    global _opened_by
+    _opened_by = _opened_by or os.getpid()
     chosen = os.environ.get("MUJOCO_GL", "").strip().lower()
     reasons: list[str] = []
     for backend in sorted(BACKENDS, key=lambda name: name != chosen):
@@ -47,6 +56,7 @@ class Camera:
 
     def __init__(self, model: Any, *, width: int, height: int, view: Any) -> None:
         """Open an OpenGL context for ``model`` (an MjModel), seen as ``view`` (an MjvCamera) tells."""
+        self._process = os.getpid()
         # OpenGL first: importing MuJoCo with another back end would bind PyOpenGL to that.
         self.backend, self._context = open_context(width, height)
         mujoco: Any = importlib.import_module("mujoco")
@@ -97,5 +107,6 @@ class Camera:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._renderer.free()
-        self._context.free()
+        if self._process == os.getpid():
+            self._renderer.free()
+            self._context.free()

@@ -14,7 +14,7 @@ from prolepsis.aside import check_replaceable, written_aside
 from prolepsis.errors import InputError
 from prolepsis.log import Log
 from prolepsis.report.liquid import Picture, painted
-from prolepsis.report.offscreen import Camera
+from prolepsis.report.offscreen import Camera, opened_by_parent
 
 FRAME_RATE = 30
 """Frames of a video a second of watching."""
@@ -141,6 +141,11 @@ def render_strip(
 
 def pictures(log: Log, ticks: Sequence[int], *, size: tuple[int, int], **view: float) -> Iterator[Picture]:
     """Yield a picture of ``log`` at each of ``ticks``, all from one fixed camera."""
+    if opened_by_parent():
+        from prolepsis.report.forked import pictures_elsewhere
+
+        yield from pictures_elsewhere(log, ticks, size, view)
+        return
     width, height = size
     from prolepsis.report.stage import Stage
 
