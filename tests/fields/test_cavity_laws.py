@@ -92,3 +92,31 @@ def test_a_closed_hollow_lets_nothing_out_whichever_way_it_lies() -> None:
     cavity = cavity_of((*open_box(0.05, 0.08, 0.002), lid))
     for up in np.concatenate((np.eye(3), -np.eye(3))):
         assert cavity.depth(np.array([[0.0, 0.0, 0.04]]), up, 0.002)[0] > 0.1
+
+
+def table(length: float, thick: float, leg: float) -> tuple[Solid, ...]:
+    """Return a table of a length, with a top and four legs of a half-width [m], its upper surface at height 0."""
+    long, wide, high = length / 2, length / 3, 0.35
+    geoms = [Geom(type="box", size=(long, wide, thick / 2), position=(0.0, 0.0, -thick / 2))]
+    for x, y in itertools.product((leg - long, long - leg), (leg - wide, wide - leg)):
+        geoms.append(Geom(type="box", size=(leg, leg, high - thick / 2), position=(x, y, -high - thick / 2)))
+    return tuple(solid_of(geom) for geom in geoms)
+
+
+@pytest.mark.parametrize("length", np.linspace(0.5, 1.6, 12).tolist())
+def test_a_level_top_is_no_cavity_for_what_has_sunk_into_it(length: float) -> None:
+    cavity = cavity_of(table(length, 0.03, 0.03))
+    heights = np.array([-1e-3, -3e-4, -5e-5, 1e-5, 1e-4, 1e-3, 3e-3])
+    for x, y in ((0.0, 0.0), (0.013, 0.05), (-0.31 * length, 0.17 * length)):
+        points = np.column_stack([np.full(len(heights), x), np.full(len(heights), y), heights])
+        assert (cavity.depth(points, np.array([0.0, 0.0, 1.0]), 0.00025) == 0).all()
+
+
+@pytest.mark.parametrize("sunk", [-5e-4, -5e-5, 1e-5, 1e-3])
+@pytest.mark.parametrize("steps", [3.0, 5.0, 20.0])
+def test_what_has_sunk_into_the_bottom_of_a_tray_is_still_in_it(steps: float, sunk: float) -> None:
+    wide = cavity_of(open_box(0.2, 0.02, 0.002)).step
+    cavity = cavity_of(open_box(0.2, steps * wide, 0.002))
+    points = np.array([(0.0, 0.0, 0.004 + sunk), (0.1, -0.07, 0.004 + sunk)])
+    depth = cavity.depth(points, np.array([0.0, 0.0, 1.0]), 0.00025)
+    assert np.allclose(depth, steps * wide - 0.004 - sunk, atol=1.5 * cavity.step)

@@ -76,19 +76,39 @@ class Cavity:
         """
         width = int(min(CLEARANCE * half_width / self.step, CLEARANCE_STEPS))
         clearance = self.step * max(width, BLOCKED)
-        levels = self._spill_levels(np.atleast_2d(up)[0], width)
+        direction = _direction(np.atleast_2d(up)[0])
+        levels = self._spill_levels(direction, width)
         places, inside = self._nodes(points)
-        doubtful = inside & (self.distance[tuple(places.T)] < max(clearance, _NEAR * self.step))
-        if doubtful.any():
-            moved = self._cleared(points[doubtful], clearance + self.step)
-            places[doubtful], inside[doubtful] = self._nodes(moved)
+        doubtful = np.flatnonzero(inside & (self.distance[tuple(places.T)] < max(clearance, _NEAR * self.step)))
+        low = np.ones(len(points), dtype=np.bool_)
+        if len(doubtful):
+            places[doubtful], inside[doubtful] = self._nodes(self._cleared(points[doubtful], clearance + self.step))
+            low[doubtful] = self._is_low(places[doubtful], levels, direction)
+            # The node is as high as a low rim, or there is no rim at all: look at one that is nearer.
+            high = doubtful[~low[doubtful]]
+            places[high], low[high] = self._nearer(points[high], places[high], clearance)
+            low[high] &= self._is_low(places[high], levels, direction)
         found = levels[tuple(places.T)]
         # The way out passes an edge at the clearance above it.
         rise = found - clearance - (points * up).sum(axis=1)
         # An infinite level is a closed hollow; a blocked node says nothing.
         free = self.distance[tuple(places.T)] >= clearance
-        in_depression = inside & free & (rise > LEAST_DEPTH * self.step)
+        in_depression = inside & free & low & (rise > LEAST_DEPTH * self.step)
         return np.where(in_depression, np.minimum(rise, float(np.max(self.step * np.array(self.distance.shape)))), 0.0)
+
+    def _is_low(self, places: IntArray, levels: FloatArray, direction: IntArray) -> BoolArray:
+        """Return whether nodes lie below their spill level: what is moved away from flat ground does not."""
+        heights = (self.origin + self.step * places) @ (direction / np.linalg.norm(direction))
+        return levels[tuple(places.T)] > heights + 1e-3 * self.step
+
+    def _nearer(self, points: FloatArray, places: IntArray, clearance: float) -> tuple[IntArray, BoolArray]:
+        """Return a node nearer to each point than ``places`` that is surely on its side of all matter, and if it is."""
+        moved = self._cleared(points, clearance)
+        nodes, inside = self._nodes(moved)
+        apart = np.linalg.norm(self.origin + self.step * nodes - moved, axis=1)
+        # Two balls without matter that meet: nothing is between their middles.
+        sure = inside & (apart <= self.distance[tuple(nodes.T)] + clearance)
+        return np.where(sure[:, None], nodes, places), sure
 
     def _nodes(self, points: FloatArray) -> tuple[IntArray, BoolArray]:
         """Return the nearest node of each point, and whether the point is within the grid."""
@@ -113,13 +133,11 @@ class Cavity:
             moved[near] = here + slope * (clearance - distance[near])[:, None]
         return moved
 
-    def _spill_levels(self, up: FloatArray, width: int) -> FloatArray:
-        rounded = np.rint(up * ORIENTATIONS).astype(np.int64)
-        key = (int(rounded[0]), int(rounded[1]), int(rounded[2]), width)
+    def _spill_levels(self, direction: IntArray, width: int) -> FloatArray:
+        key = (int(direction[0]), int(direction[1]), int(direction[2]), width)
         if key not in self._levels:
-            direction = rounded / np.linalg.norm(rounded)
             blocked = self.distance < self.step * max(width, BLOCKED)
-            self._levels[key] = spill_levels(self._heights(direction), blocked)
+            self._levels[key] = spill_levels(self._heights(direction / np.linalg.norm(direction)), blocked)
         return self._levels[key]
 
     def _heights(self, up: FloatArray) -> FloatArray:
@@ -185,6 +203,11 @@ def _sweep(lines: FloatArray, bottom: FloatArray, order: range, back: int) -> No
         line = lines[i]
         minimum(line, lines[i - back], out=line)
         maximum(line, bottom[i], out=line)
+
+
+def _direction(up: FloatArray) -> IntArray:
+    """Return the direction that a unit vector is told apart as, in whole numbers, shape (3,)."""
+    return np.rint(up * ORIENTATIONS).astype(np.int64)
 
 
 def _union_distance(matter: Sequence[Matter], points: FloatArray) -> FloatArray:
