@@ -13,7 +13,7 @@
      │    ├── GoalError            a query: syntax, unknown predicate, not permitted
      │    │    └── GoalLimitError  the query ran out of time or memory
      │    └── LogError             a log folder that is truncated, altered or not one
-     ├── InvalidSimulationError    the physics went unstable; the run is no answer (exit status 3)
+     ├── InvalidSimulationError    the physics went unstable, or through a wall; the run is no answer (exit status 3)
      └── MissingToolError          something outside Python is absent; how to get it (exit status 2)
 
 A message is one line: what was wrong, where, and what is allowed. ``brief`` shortens a value that it shows.
@@ -124,7 +124,7 @@ class LogError(InputError):
 
 
 class InvalidSimulationError(ProlepsisError):
-    """The physics went unstable, so there is no answer."""
+    """The physics went unstable, or something through solid matter, so there is no answer."""
 
 
 class MissingToolError(ProlepsisError):

@@ -12,8 +12,10 @@ from prolepsis.engine import mujoco
 from prolepsis.errors import InvalidSimulationError, PlanError, ScenarioError
 from prolepsis.log import Action, Detachments, Log
 from prolepsis.monitors.channels import Channels, Watched, chosen_monitors
+from prolepsis.monitors.crossing import crossings
 from prolepsis.monitors.frames import Frames
 from prolepsis.monitors.recorder import Recorder
+from prolepsis.monitors.sinking import sinkings
 from prolepsis.phenomena import PHENOMENA, Attach, Detachment, Draw
 from prolepsis.phenomena.breaking import Breaking
 from prolepsis.programs.commands import Begin, Command, End, Sense
@@ -22,6 +24,7 @@ from prolepsis.robots.control import Controls
 from prolepsis.scene.world import MAX_STEP, World
 from prolepsis.state import State
 from prolepsis.terms import Term
+from prolepsis.things import FloatArray, Thing
 from prolepsis.threads import one_thread
 
 TICK = 1.0e-3
@@ -63,7 +66,8 @@ def simulate(
     Raises:
         ScenarioError: If the duration is out of range, or a monitor does not suit its thing.
         PlanError: If the plan does not end.
-        InvalidSimulationError: If the physics diverges; the message says when and where.
+        InvalidSimulationError: If the physics diverges, or something passes through solid matter; the message says
+            when and where.
     """
     if duration is not None and not TICK <= duration <= LONGEST:
         raise ScenarioError(f"duration: {duration:g} s is not between {TICK:g} and {LONGEST:g} s")
@@ -140,6 +144,7 @@ def simulate(
     cut = [(term, start) for term, starts in running.items() for start in starts]
     actions += [Action(term=term, start=start, end=tick, outcome="cut") for term, start in cut]
     poses, carriers = recorder.pose_columns()
+    _refuse_passed(things, recorder, poses)
     return Log(
         dt=TICK,
         things=things,
@@ -198,6 +203,25 @@ def _refuse(state: State, tick: int) -> None:
     kinds = [mujoco.mjtWarning(int(k)).name for k in np.flatnonzero(data.warning.number)]
     why = f" ({', '.join(kinds)})" if kinds else ""
     raise InvalidSimulationError(f"the simulation became unstable at {tick * TICK:.3f} s at {body}{why}")
+
+
+def _refuse_passed(things: Sequence[Thing], recorder: Recorder, poses: FloatArray) -> None:
+    """End the run if something has gone through solid matter, or stayed in it.
+
+    Raises:
+        InvalidSimulationError: If so; the message names what did it first, and when.
+    """
+    found = [
+        (each.tick, f"{things[each.mover].name} has gone into {things[each.obstacle].name} or through it")
+        for each in crossings(things, poses, recorder.stretches())
+    ]
+    found += [
+        (each.tick, f"{things[each.first].name} is pressed {each.depth * 1000:.1f} mm into {things[each.second].name}")
+        for each in sinkings(things, recorder.overlaps(), recorder.matters(), TICK)
+    ]
+    if found:
+        tick, what = min(found)
+        raise InvalidSimulationError(f"at {tick * TICK:.3f} s {what}: contacts are too soft for such speeds or weights")
 
 
 def _detachment_columns(rows: list[tuple[int, Detachment]]) -> Detachments:

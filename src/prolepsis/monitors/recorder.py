@@ -11,6 +11,8 @@ import numpy as np
 
 from prolepsis.engine import mujoco
 from prolepsis.log import Bonds, Contacts
+from prolepsis.monitors.matter import Matter, Stretch
+from prolepsis.monitors.sinking import LEAST_LIMIT, Overlaps
 from prolepsis.monitors.touching import empty_contacts
 from prolepsis.state import State
 from prolepsis.things import FloatArray, IntArray
@@ -24,6 +26,7 @@ class _Version:
     offsets: FloatArray
     body_of: IntArray
     thing_of_geom: IntArray
+    matter: Matter
 
 
 @dataclass(kw_only=True)
@@ -35,6 +38,10 @@ class Recorder:
     contacts: list[tuple[int, int, float, IntArray, IntArray, FloatArray, FloatArray, FloatArray]] = field(
         default_factory=list[tuple[int, int, float, IntArray, IntArray, FloatArray, FloatArray, FloatArray]]
     )
+    deep: list[tuple[int, int, IntArray, FloatArray]] = field(
+        default_factory=list[tuple[int, int, IntArray, FloatArray]]
+    )
+    """Geoms and distances [m] of contacts in which solids overlap more than contacts usually do."""
     bonds: dict[tuple[int, int], list[tuple[int, int]]] = field(
         default_factory=dict[tuple[int, int], list[tuple[int, int]]]
     )
@@ -56,6 +63,7 @@ class Recorder:
                 offsets=state.offsets.copy(),
                 body_of=body_of,
                 thing_of_geom=state.body_thing[state.model.geom_bodyid],
+                matter=Matter.of(state.model, state.world.scene.things),
             )
         )
 
@@ -76,6 +84,10 @@ class Recorder:
                     data.efc_force.copy(),
                 )
             )
+            distance = contact.dist
+            if distance.min() < -LEAST_LIMIT:
+                chosen = distance < -LEAST_LIMIT
+                self.deep.append((tick, len(self.versions) - 1, contact.geom[chosen], distance[chosen]))
 
     def tick(self, state: State) -> None:
         """Copy the poses at the start of a tick."""
@@ -86,6 +98,31 @@ class Recorder:
             start = runs.pop()[0] if runs and runs[-1][1] == now else now
             runs.append((start, now + 1))
         self.poses.append((len(self.versions) - 1, state.data.xpos.copy(), state.data.xquat.copy()))
+
+    def stretches(self) -> list[Stretch]:
+        """Return from when to when the model stayed the same, and what could touch something then."""
+        versions = np.array([row[0] for row in self.poses])
+        found: list[Stretch] = []
+        for number, version in enumerate(self.versions):
+            ticks = np.flatnonzero(versions == number)
+            if len(ticks):
+                found.append(Stretch(start=int(ticks[0]), end=int(ticks[-1]) + 1, matter=version.matter))
+        return found
+
+    def matters(self) -> list[Matter]:
+        """Return what could touch something in each model."""
+        return [version.matter for version in self.versions]
+
+    def overlaps(self) -> Overlaps:
+        """Return the contacts in which solids overlapped deeply, one row each."""
+        count = [len(row[2]) for row in self.deep]
+        solids = [row[2] for row in self.deep]
+        return Overlaps(
+            tick=np.repeat(np.array([row[0] for row in self.deep], dtype=np.int64), count),
+            version=np.repeat(np.array([row[1] for row in self.deep], dtype=np.int64), count),
+            geoms=np.concatenate([np.zeros((0, 2), dtype=np.int64), *solids]),
+            depth=-np.concatenate([np.zeros(0), *(row[3] for row in self.deep)]),
+        )
 
     def pose_columns(self) -> tuple[FloatArray, IntArray]:
         """Return poses, shape (T, n, 7), and carriers, shape (T, n)."""

@@ -1,0 +1,137 @@
+"""Nothing goes through solid matter, or stays in it, and the run is still an answer."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from tests.scenes import PREFIX, run
+
+from prolepsis.cli import main
+from prolepsis.errors import InvalidSimulationError, KnowledgeError
+from prolepsis.projection import project
+
+FLOOR = ":floor a :Floor . "
+TABLE = FLOOR + ":table1 a :Table . "
+
+
+def block(name: str, size: tuple[float, float, float], rest: str) -> str:
+    """Return a block of a length, width and height [m]."""
+    x, y, z = size
+    return f":{name} a :Block ; :length {x!r} ; :width {y!r} ; :height {z!r} ; {rest} . "
+
+
+def board(length: float, width: float, height: float, rest: str = ":x 0.0") -> str:
+    """Return a board that is fixed half a metre above the floor."""
+    return f":board a :Obstacle ; :z 0.5 ; :length {length!r} ; :width {width!r} ; :height {height!r} ; {rest} . "
+
+
+CROSSED = {
+    "a cube of 1 cm from 8 m": (TABLE + block("b", (0.01, 0.01, 0.01), ":z 8.0"), 1.4, "table1"),
+    "a plate of 2 mm from 10 m": (TABLE + block("b", (0.1, 0.1, 0.002), ":z 10.0"), 1.6, "table1"),
+    "a block of 100 kg from 20 m": (TABLE + block("b", (0.05, 0.05, 0.05), ":z 20.0 ; :mass 100.0"), 2.2, "table1"),
+    "a plank from 10 m with one end over the table": (
+        TABLE + block("b", (0.8, 0.02, 0.01), ":x 0.55 ; :z 10.0"),
+        1.6,
+        "table1",
+    ),
+    "a cube of 3 mm from 15 m on the floor": (FLOOR + block("b", (0.003, 0.003, 0.003), ":z 15.0"), 2.0, "floor"),
+    "a cube of 1 cm from 3 m on a fixed board of 2 mm": (
+        FLOOR + board(0.3, 0.3, 0.002) + block("b", (0.01, 0.01, 0.01), ":z 3.5"),
+        1.0,
+        "board",
+    ),
+    "two cubes, the upper from 20 m through one of a kilogram": (
+        FLOOR + block("a", (0.1, 0.1, 0.02), ":on :floor ; :mass 1.0") + block("b", (0.01, 0.01, 0.01), ":z 20.0"),
+        2.2,
+        "a",
+    ),
+}
+"""What is dropped, for how long it is simulated [s], and what it goes into."""
+
+
+@pytest.mark.parametrize("what", CROSSED)
+def test_what_crosses_solid_matter_is_no_answer(what: str) -> None:
+    turtle, duration, obstacle = CROSSED[what]
+    with pytest.raises(InvalidSimulationError, match=rf"at [0-9.]+ s b has gone into {obstacle} or through it"):
+        run(turtle, duration=duration)
+
+
+def test_what_begins_inside_solid_matter_is_refused() -> None:
+    with pytest.raises(KnowledgeError, match="b and board overlap by 210.0 mm at the start"):
+        run(FLOOR + board(0.4, 0.4, 0.4) + block("b", (0.02, 0.02, 0.02), ":z 0.5"), duration=0.1)
+
+
+PRESSED = {
+    "a cube of 10 g under 100 kg": (
+        TABLE
+        + block("e", (0.05, 0.05, 0.05), ":on :table1 ; :mass 0.01")
+        + block("b", (0.05, 0.05, 0.05), ":on :e ; :mass 100.0"),
+        "table1",
+    ),
+    "a light cube that 100 kg squeeze out below a board of 4 mm": (
+        FLOOR
+        + board(0.3, 0.3, 0.004)
+        + block("e", (0.02, 0.02, 0.02), ":on :board ; :mass 0.002")
+        + block("c", (0.1, 0.1, 0.1), ":on :e ; :mass 100.0"),
+        "(e|board)",
+    ),
+}
+"""What lies under what, and what is pressed into what."""
+
+
+@pytest.mark.parametrize("what", PRESSED)
+def test_what_is_pressed_into_something_is_no_answer(what: str) -> None:
+    turtle, below = PRESSED[what]
+    with pytest.raises(InvalidSimulationError, match=rf"at 0\.[0-9]+ s [ec] is pressed [0-9.]+ mm into {below}"):
+        run(turtle, duration=0.3)
+
+
+def test_a_crossing_ends_a_projection_with_status_3(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "s.ttl").write_text(PREFIX + CROSSED["a cube of 1 cm from 8 m"][0], encoding="utf-8")
+    (tmp_path / "s.toml").write_text('situation = "s.ttl"\nplan = "wait(0.5)"\nduration = 1.4\n', encoding="utf-8")
+    with pytest.raises(InvalidSimulationError, match="b has gone into table1"):
+        project(tmp_path / "s.toml")
+    assert main(["project", str(tmp_path / "s.toml"), "--out", str(tmp_path / "out")]) == 3
+    told = capsys.readouterr().err.strip()
+    assert re.fullmatch(
+        r"prolepsis: at 1\.2\d\d s b has gone into table1 or through it: contacts are too soft .*", told
+    )
+    assert not (tmp_path / "out").exists()
+
+
+FRAME = "".join(
+    f":side{k} a :Obstacle ; :z 0.5 ; {place} . "
+    for k, place in enumerate(
+        (
+            ":x 0.06 ; :length 0.06 ; :width 0.2 ; :height 0.01",
+            ":x -0.06 ; :length 0.06 ; :width 0.2 ; :height 0.01",
+            ":y 0.06 ; :length 0.06 ; :width 0.06 ; :height 0.01",
+            ":y -0.06 ; :length 0.06 ; :width 0.06 ; :height 0.01",
+        )
+    )
+)
+"""A board with a square opening of 6 cm."""
+NOT_CROSSED = {
+    "a ball through an opening": FLOOR + FRAME + ":b a :Ball ; :z 1.0 ; :radius 0.025 .",
+    "a ball into a bowl": TABLE + ":bowl1 a :Bowl ; :on :table1 . :b a :Ball ; :z 1.2 ; :radius 0.02 .",
+    "a cube of 1 cm from a metre": TABLE + block("b", (0.01, 0.01, 0.01), ":z 1.7"),
+    "a lid of 2 mm from half a metre": TABLE + block("b", (0.1, 0.1, 0.002), ":z 1.2"),
+    "paper under a heavy book": TABLE
+    + block("b", (0.2, 0.1, 0.0005), ":on :table1")
+    + block("book", (0.2, 0.15, 0.04), ":on :b ; :mass 2.0"),
+    "a heavy book that falls on a sheet": TABLE
+    + block("b", (0.2, 0.1, 0.002), ":on :table1")
+    + block("book", (0.2, 0.15, 0.04), ":z 0.9 ; :mass 2.0"),
+    "a ruler that slides off the edge": TABLE + block("b", (0.3, 0.03, 0.003), ":x 0.4 ; :z 0.72 ; :pitch 20.0"),
+    "cubes side by side": TABLE
+    + block("a", (0.05, 0.05, 0.05), ":on :table1")
+    + block("b", (0.05, 0.05, 0.05), ":on :table1 ; :x 0.0501"),
+}
+
+
+@pytest.mark.parametrize("what", NOT_CROSSED)
+def test_what_goes_round_or_gives_way_a_little_is_an_answer(what: str) -> None:
+    log = run(NOT_CROSSED[what], duration=0.7)
+    assert log.poses[-1, log.index("b"), 2] > 0.0
