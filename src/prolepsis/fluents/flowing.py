@@ -160,7 +160,8 @@ def _state(observation: Observation, seen: Places, inside: Inside, start: int, e
     held = inside.hollow[first:last] @ seen.particles.volume
     fullest = int(np.argmax(held)) + int(first)
     capacity = inside.capacity[fullest]() if fullest in inside.capacity else 0.0
-    fill = float(held.max()) / capacity if capacity > 0 else 0.0
+    # A liquid bulges over the rim of what is full to the brim.
+    fill = float(held.max()) / max(capacity, float(held.max())) if capacity > 0 else 0.0
     return {"tilt": float(tilt.max()), "tilt_before": float(tilt[0]), "fill": fill}
 
 

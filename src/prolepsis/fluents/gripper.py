@@ -88,8 +88,9 @@ def _evidence(observation: Observation, gripper: str, start: int, end: int, *, c
             evidence[name] = float(series[start:end].max())
     opening = observation.log.channels.get(f"{gripper}.opening")
     if opening is not None:
-        evidence["opening_before"] = float(opening[start])
-        evidence["opening_after"] = float(opening[min(end, len(opening) - 1)])
+        # Between pads that press on each other there is no gap.
+        evidence["opening_before"] = max(float(opening[start]), 0.0)
+        evidence["opening_after"] = max(float(opening[min(end, len(opening) - 1)]), 0.0)
     return evidence
 
 

@@ -7,11 +7,12 @@ blob of a stuff (which facts name by its stuff).
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar, cast
 
 import numpy as np
 
+from prolepsis.fluents.evidence import possible
 from prolepsis.log import Log
 from prolepsis.things import BoolArray, FloatArray, IntArray
 from prolepsis.timeline import Argument, Evidence, Fact
@@ -94,10 +95,14 @@ class Observation:
     def fact(
         self, kind: Any, type: str, args: tuple[Argument, ...], stretch: Any, evidence: Evidence | None = None
     ) -> Fact:
-        """Return the fact that holds over a run of ticks ``(start, end)``."""
+        """Return the fact that holds over a run of ticks ``(start, end)``.
+
+        Raises:
+            InvalidSimulationError: If the evidence is none that physics allows.
+        """
         start, end = int(stretch[0]), int(stretch[1])
-        plain = {name: value if isinstance(value, str) else float(value) for name, value in (evidence or {}).items()}
-        return Fact(kind=kind, type=type, args=args, start=start * self.dt, end=end * self.dt, evidence=plain)
+        made = Fact(kind=kind, type=type, args=args, start=start * self.dt, end=end * self.dt)
+        return replace(made, evidence=possible(f"{made.term} from {made.start:.3f} s", evidence or {}))
 
 
 def observe(log: Log) -> Observation:

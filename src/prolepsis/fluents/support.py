@@ -34,10 +34,12 @@ def supports(observation: Observation) -> Iterator[Fact]:
             continue
         names = observation.unit_names[below], observation.unit_names[above]
         bearing = observation.of(bearing_forces)[below, above]
-        weight = observation.mass(above) * observation.gravity
+        weight, borne = observation.mass(above) * observation.gravity, observation.of(bearing_in_all)[above]
         for start, end in stretches:
             force = float(bearing[start:end].mean())
-            evidence = {"share": force / float(weight[start:end].mean()), "mean_force": force}
+            # What is pressed down has to be borne with what presses it; what also hangs by a joint is not borne in all.
+            load = max(float(weight[start:end].mean()), float(borne[start:end].mean()))
+            evidence = {"share": force / load, "mean_force": force}
             yield observation.fact("fluent", "supports", names, (start, end), evidence)
     whole = 0, observation.tick_count
     for below, above in observation.of(fixed_supports):
@@ -75,6 +77,16 @@ def bearing_forces(observation: Observation) -> dict[Pair, FloatArray]:
             if pair in known:
                 found[pair] = touch.series(bearing, count)
     return found
+
+
+def bearing_in_all(observation: Observation) -> dict[int, FloatArray]:
+    """Return the upward force of all contacts on each unit that is supported [N], at each tick, shape (T,) each."""
+    borne = {above: np.zeros(observation.tick_count) for _, above in observation.of(support_runs)}
+    for touch in observation.of(touches):
+        for unit, bears, lifts in ((touch.a, touch.bears_a, -touch.lifts_b), (touch.b, touch.bears_b, touch.lifts_b)):
+            if unit in borne:
+                borne[unit][touch.tick] += np.maximum(np.maximum(bears, lifts), 0.0)
+    return borne
 
 
 def supporters(observation: Observation) -> dict[int, list[tuple[int, IntArray]]]:
