@@ -10,16 +10,20 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from prolepsis.errors import InputError, PlanError, ScenarioError, UnknownNameError
+from prolepsis.errors import InputError, PlanError, ScenarioError, UnknownNameError, brief, brief_list
 from prolepsis.knowledge import KnowledgeBase
 from prolepsis.knowledge.turtle import Document, parse_turtle
 from prolepsis.own_robot import OwnRobot
 from prolepsis.scenario_file import DEFAULT_PARTICLES, ParameterTable, read_file, read_robot
-from prolepsis.terms import Term, Value, Variable, parse_term
-from prolepsis.units import read_quantity, si_symbol, to_si, unit_of
+from prolepsis.terms import PARTIAL_LIST, Term, Value, Variable, parse_term
+from prolepsis.units import read_quantity, si_symbol, to_float, to_si, unit_of
 
 FEWEST_PARTICLES, MOST_PARTICLES = 20, 200_000
 """Fewer are no liquid; more would take gigabytes of log, and days."""
+LONGEST = 86_400.0
+"""Longest duration [s]: a day."""
+LARGEST_SEED = 2**63 - 1
+"""Larger ones are no whole numbers to most programs that read the saved scenario."""
 ROBOTS: Mapping[str, Path | None] = {
     "hand": None,
     **{file.stem: file for file in sorted((Path(__file__).parent / "knowledge" / "robots").glob("*.ttl"))},
@@ -67,33 +71,34 @@ class Scenario:
 
     def __post_init__(self) -> None:
         """Refuse a scenario that cannot be run."""
-        if self.duration is not None and not (math.isfinite(self.duration) and self.duration > 0.0):
+        if self.duration is not None and not 0.0 < self.duration <= LONGEST:
             raise ScenarioError(
-                f"{self.path}: duration must be a finite number of seconds greater than 0, not {self.duration:g}"
+                f"{self.path}: duration must be a finite number of seconds greater than 0 and at most {LONGEST:,.0f}, "
+                f"not {self.duration:g}"
             )
-        if self.seed < 0:
-            raise ScenarioError(f"{self.path}: seed = {self.seed}: must not be negative")
+        if not 0 <= self.seed <= LARGEST_SEED:
+            raise ScenarioError(f"{self.path}: seed = {brief(self.seed)}: allowed: 0 to {LARGEST_SEED}")
         if not FEWEST_PARTICLES <= self.particles <= MOST_PARTICLES:
             raise ScenarioError(
-                f"{self.path}: particles = {self.particles}: allowed: {FEWEST_PARTICLES} to {MOST_PARTICLES}"
+                f"{self.path}: particles = {brief(self.particles)}: allowed: {FEWEST_PARTICLES} to {MOST_PARTICLES}"
             )
         if isinstance(self.robot, str) and self.robot not in ROBOTS:
             raise UnknownNameError.of("robot", self.robot, ROBOTS, f"{self.path}: robot")
         for name, parameter in self.parameters.items():
             if isinstance(parameter.value, float) and not math.isfinite(parameter.value):
-                raise ScenarioError(f"{self.path}: parameter {name} must be finite, not {parameter.value}")
+                raise ScenarioError(f"{self.path}: parameter {brief(name)} must be finite, not {parameter.value}")
         used = sorted(set(variables(self.plan)))
         missing = [name for name in used if name not in self.parameters]
         if missing:
             raise ScenarioError(
-                f"{self.path}: the plan's variable {missing[0]} has no value; give it under [parameters]; "
-                f"given: {_listed(self.parameters)}"
+                f"{self.path}: the plan's variable {brief(missing[0])} has no value; give it under [parameters]; "
+                f"given: {brief_list(sorted(self.parameters))}"
             )
         unused = [name for name in sorted(self.parameters) if name not in used]
         if unused:
             raise ScenarioError(
-                f"{self.path}: the plan has no variable {unused[0]}, which [parameters] gives; "
-                f"variables of the plan: {_listed(used)}"
+                f"{self.path}: the plan has no variable {brief(unused[0])}, which [parameters] gives; "
+                f"variables of the plan: {brief_list(used)}"
             )
 
     @classmethod
@@ -115,8 +120,8 @@ class Scenario:
         files = [content.situation] if isinstance(content.situation, str) else content.situation
         situation = tuple(path.parent / name for name in files)
         for file in situation:
-            if not file.is_file():
-                raise ScenarioError(f"{path}: situation: there is no file {file}")
+            if not _is_file(file):
+                raise ScenarioError(f"{path}: situation: there is no file {brief(file)}")
         scenario = cls(
             path=path,
             situation=situation,
@@ -124,7 +129,7 @@ class Scenario:
             parameters={n: _parameter(v, f"{path}: parameter {n}") for n, v in content.parameters.items()},
             knowledge={n: _plain(v) for n, v in content.knowledge.items()},
             robot=read_robot(content.robot, str(path)) if isinstance(content.robot, dict) else content.robot,
-            duration=None if content.duration is None else float(content.duration),
+            duration=None if content.duration is None else to_float(content.duration),
             seed=content.seed,
             draw=content.draw,
             particles=content.particles,
@@ -149,11 +154,11 @@ class Scenario:
                 known for known in parameters if known.lower() == name.lower()
             ]
             if not match and name in numbers:
-                numbers[name] = _whole(value, f"{self.path}: {name} = {value}")
+                numbers[name] = _whole(value, f"{self.path}: {name} = {brief(value)}")
                 continue
             if len(match) != 1:
                 raise UnknownNameError.of("parameter", name, parameters, where=str(self.path))
-            parameters[match[0]] = _setting(value, parameters[match[0]], f"{self.path}: {match[0]} = {value}")
+            parameters[match[0]] = _setting(value, parameters[match[0]], f"{self.path}: {match[0]} = {brief(value)}")
         return replace(self, parameters=parameters, knowledge=knowledge, **numbers)
 
     def knowledge_base(self) -> KnowledgeBase:
@@ -185,14 +190,21 @@ class Scenario:
 
 def variables(value: Value) -> Iterator[str]:
     """Yield the names of the variables in ``value``, as often as they occur."""
-    if isinstance(value, Variable):
-        yield value.name
-    elif isinstance(value, Term):
-        for argument in value.args:
-            yield from variables(argument)
-    elif isinstance(value, tuple):
-        for item in value:
-            yield from variables(item)
+    for each in _within(value):
+        if isinstance(each, Variable):
+            yield each.name
+
+
+def _within(value: Value) -> Iterator[Value]:
+    """Yield ``value`` and all that it is made of."""
+    waiting = [value]
+    while waiting:
+        each = waiting.pop()
+        yield each
+        if isinstance(each, Term):
+            waiting += each.args
+        elif isinstance(each, tuple):
+            waiting += each
 
 
 def bind(value: Value, values: Mapping[str, float | str]) -> Value:
@@ -206,20 +218,31 @@ def bind(value: Value, values: Mapping[str, float | str]) -> Value:
     return value
 
 
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except OSError:  # Its name is too long, or a folder on the way to it may not be entered.
+        return False
+
+
 def _plan(text: str, path: Path) -> Value:
     try:
-        return parse_term(text, where=f"{path}: plan")
+        plan = parse_term(text, where=f"{path}: plan")
     except InputError as error:
         raise PlanError(str(error)) from error
+    for each in _within(plan):
+        if isinstance(each, Term) and each.functor == PARTIAL_LIST:
+            raise PlanError(f"{path}: plan: [A|B] is no list of actions or numbers; write all of it, [A, B]")
+    return plan
 
 
 def _parameter(value: float | str | ParameterTable, where: str) -> Parameter:
     if isinstance(value, ParameterTable):
-        return _quantity(float(value.value), value.unit, where)
+        return _quantity(to_float(value.value), value.unit, where)
     if isinstance(value, str):
         read = read_quantity(value)
         return Parameter(value) if read is None else _quantity(*read, where)
-    return Parameter(float(value))
+    return Parameter(to_float(value))
 
 
 def _quantity(number: float, unit: str, where: str) -> Parameter:
@@ -231,7 +254,7 @@ def _quantity(number: float, unit: str, where: str) -> Parameter:
 
 
 def _setting(value: str | float, old: Parameter, where: str) -> Parameter:
-    read = read_quantity(value) if isinstance(value, str) else (float(value), "")
+    read = read_quantity(value) if isinstance(value, str) else (to_float(value), "")
     if read is None:
         return Parameter(str(value))
     number, unit = read
@@ -239,17 +262,22 @@ def _setting(value: str | float, old: Parameter, where: str) -> Parameter:
         return Parameter(number, old.unit)
     new = _quantity(number, unit, where)
     if old.unit is not None and new.unit != old.unit:
-        raise ScenarioError(f"{where}: unit {unit!r} does not fit: a unit such as {old.unit!r} is needed")
+        raise ScenarioError(f"{where}: unit {brief(repr(unit))} does not fit: a unit such as {old.unit!r} is needed")
     return new
 
 
 def _whole(value: str | float, where: str) -> int:
     try:
-        number = float(value)
+        # Beyond 2^53 a float is not every whole number.
+        return int(value) if isinstance(value, str) and value.strip().isdigit() else _whole_float(value)
     except ValueError:
-        number = math.nan
+        raise ScenarioError(f"{where}: must be a whole number") from None
+
+
+def _whole_float(value: str | float) -> int:
+    number = to_float(float(value) if isinstance(value, str) else value)
     if not number.is_integer():
-        raise ScenarioError(f"{where}: must be a whole number")
+        raise ValueError(number)
     return int(number)
 
 
@@ -258,8 +286,4 @@ def _plain(value: bool | float | str) -> float | str:
         return "true" if value else "false"
     if isinstance(value, str):
         return value
-    return float(value)
-
-
-def _listed(names: Mapping[str, object] | list[str]) -> str:
-    return ", ".join(sorted(names)) or "none"
+    return to_float(value)

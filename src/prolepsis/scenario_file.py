@@ -20,11 +20,14 @@ from pydantic import (
     ValidationError,
 )
 
-from prolepsis.errors import ScenarioError
+from prolepsis.errors import ScenarioError, brief
 from prolepsis.own_robot import OwnGripper, OwnRobot
+from prolepsis.text_files import read_text
 
 Number = StrictInt | StrictFloat
 
+LONGEST_FILE = 1_000_000
+"""Longest scenario file [bytes]."""
 DEFAULT_PARTICLES = 2000
 """Particles of the largest liquid, if nothing is said: some 5 mm apart in a cup."""
 
@@ -59,17 +62,18 @@ def read_file(path: Path) -> ScenarioFile:
     Raises:
         ScenarioError: If it is missing or wrong.
     """
+    text = read_text(path, "scenario", most=LONGEST_FILE, error=ScenarioError)
     try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise ScenarioError(f"{path}: cannot read the scenario: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise ScenarioError(f"{path}: the scenario is not UTF-8 text") from error
+        table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         message = str(error)
         line = re.search(r"at line (\d+)", message)
         place = f"{path}:{line.group(1)}" if line else str(path)
-        raise ScenarioError(f"{place}: TOML syntax: {message}") from error
+        raise ScenarioError(f"{place}: TOML syntax: {brief(message, 200)}") from error
+    except ValueError as error:
+        raise ScenarioError(f"{path}: TOML syntax: a number, date or time that cannot be: {brief(error)}") from error
+    except RecursionError as error:
+        raise ScenarioError(f"{path}: TOML syntax: tables or lists are nested too deeply") from error
     try:
         return ScenarioFile.model_validate(table)
     except ValidationError as error:
@@ -90,7 +94,7 @@ def read_robot(table: Mapping[str, Any], where: str) -> OwnRobot:
         place = f"{where}: robot" + "".join(f".{key}" for key in keys[:-1])
         known = OwnGripper.__dataclass_fields__ if keys[0] == "grippers" else OwnRobot.__dataclass_fields__
         if problem["type"] == "unexpected_keyword_argument":
-            raise ScenarioError(f"{place}: unknown key {keys[-1]!r}; known: {', '.join(known)}") from None
+            raise ScenarioError(f"{place}: unknown key {brief(repr(keys[-1]))}; known: {', '.join(known)}") from None
         if problem["type"] == "missing" and not keys[-1].isdigit():
             needed = "palm, fingers, tool" if keys[0] == "grippers" else "file, grippers"
             raise ScenarioError(f"{place}: the key {keys[-1]!r} is missing; needed: {needed}") from None
@@ -106,18 +110,20 @@ def _first_problem(error: ValidationError, table: Mapping[str, Any]) -> str:
     problem = error.errors(include_url=False)[0]
     keys = [str(key) for key in problem["loc"]]
     if problem["type"] == "extra_forbidden" and len(keys) == 1:
-        return f"unknown key {keys[0]!r}; known: {', '.join(ScenarioFile.model_fields)}"
+        return f"unknown key {brief(repr(keys[0]))}; known: {', '.join(ScenarioFile.model_fields)}"
     if problem["type"] == "missing" and len(keys) == 1:
         return f"the key {keys[0]!r} is missing; needed: situation, plan"
     if keys[0] == "parameters" and len(keys) > 1:
-        return f'parameter {keys[1]}: give a number, the name of an individual, or {{ value = 20, unit = "N" }}'
+        return f'parameter {brief(keys[1])}: give a number, the name of an individual, or {{ value = 20, unit = "N" }}'
     if keys[0] == "knowledge" and len(keys) > 1:
-        return f'knowledge: {keys[1]}: give a number, a text or true/false; write the name in quotes, "egg1.mass"'
+        return (
+            f'knowledge: {brief(keys[1])}: give a number, a text or true/false; write the name in quotes, "egg1.mass"'
+        )
     if keys[0] == "monitors" and len(keys) > 1:
-        return f'monitors: {keys[1]}: give a list of names, such as ["load", "speed"]'
-    given: object = table.get(keys[0])
+        return f'monitors: {brief(keys[1])}: give a list of names, such as ["load", "speed"]'
+    given = brief(repr(table.get(keys[0])))
     if keys[0] == "robot":
-        return f"robot = {given!r}: give a name, or a table [robot] with file and grippers"
+        return f"robot = {given}: give a name, or a table [robot] with file and grippers"
     if keys[0] == "draw":
-        return f"draw = {given!r}: must be true or false"
-    return f"{keys[0]} = {given!r}: {problem['msg'].lower()}"
+        return f"draw = {given}: must be true or false"
+    return f"{keys[0]} = {given}: {problem['msg'].lower()}"

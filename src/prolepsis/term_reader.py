@@ -6,11 +6,17 @@ import re
 from dataclasses import dataclass
 from typing import NoReturn
 
-from prolepsis.errors import InputError
+from prolepsis.errors import InputError, brief
 from prolepsis.terms import INFIX, PARTIAL_LIST, PREFIX, SYMBOLS, Term, Value, Variable
 
 DEEPEST = 150
 """Deepest nesting that is read; deeper ones would exhaust Python's own stack."""
+
+TOO_DEEP = f"at most {DEEPEST} levels of nesting"
+LAST_CHARACTER = 0x10FFFF
+"""Code of Unicode's last character."""
+SHOWN = 120
+"""Most characters of the text that a message shows."""
 
 _LAYOUT = re.compile(r"(?:\s+|%[^\n]*|/\*.*?\*/)*", re.DOTALL)
 _TOKEN = re.compile(
@@ -32,6 +38,10 @@ _LETTERS = {"n": "\n", "t": "\t", "r": "\r", "a": "\a", "b": "\b", "f": "\f", "v
 _CLOSERS = frozenset({")", "]", "}", ",", "|", ""})
 
 
+class _UnreadableError(ValueError):
+    """A token that stands for nothing; the message says what it is."""
+
+
 @dataclass(frozen=True, slots=True)
 class _Token:
     kind: str
@@ -45,10 +55,16 @@ def _unescape(match: re.Match[str]) -> str:
     if code == "\n":
         return ""
     if code[0] in "xuU" and len(code) > 1:
-        return chr(int(code[1:].rstrip("\\"), 16))
+        return _character(int(code[1:].rstrip("\\"), 16))
     if code[0] in "01234567":
-        return chr(int(code.rstrip("\\"), 8))
+        return _character(int(code.rstrip("\\"), 8))
     return _LETTERS.get(code, code)
+
+
+def _character(code: int) -> str:
+    if not 0 <= code <= LAST_CHARACTER or 0xD800 <= code <= 0xDFFF:
+        raise _UnreadableError("an escape that is no character")
+    return chr(code)
 
 
 def _unquote(text: str) -> str:
@@ -58,7 +74,10 @@ def _unquote(text: str) -> str:
 
 def _number(text: str) -> int | float:
     if text.startswith("0'"):
-        return ord(_ESCAPE.sub(_unescape, text[2:])[0])
+        character = _ESCAPE.sub(_unescape, text[2:])
+        if not character:
+            raise _UnreadableError("a line that goes on is no character")
+        return ord(character[0])
     if text.endswith("Inf"):
         return float("inf")
     if text.endswith("NaN"):
@@ -77,8 +96,26 @@ def read_term(text: str, where: str) -> Value:
     """Return the one value in ``text``; see ``prolepsis.terms.parse_term``."""
     try:
         return _Reader(text, where).read()
-    except ValueError as error:
+    except _UnreadableError as error:
+        raise InputError(f"{where}: syntax error: {error}: {brief(repr(text.strip()), SHOWN)}") from error
+    except ValueError as error:  # Python reads no integer that is longer than 4300 digits.
         raise InputError(f"{where}: a number has too many digits") from error
+
+
+def _is_too_deep(value: Value) -> bool:
+    """Return whether terms are nested more deeply than may be; a list is as deep as its items, however long."""
+    waiting = [(value, 0)]
+    while waiting:
+        each, depth = waiting.pop()
+        if depth > DEEPEST:
+            return True
+        if isinstance(each, tuple):
+            waiting += [(item, depth + 1) for item in each]
+        elif isinstance(each, Term):
+            *items, last = each.args
+            waiting += [(item, depth + 1) for item in items]
+            waiting.append((last, depth if each.functor == PARTIAL_LIST else depth + 1))
+    return False
 
 
 class _Reader:
@@ -97,15 +134,18 @@ class _Reader:
             self._next()
         if self.token.text:
             self._fail("an operator or the end")
+        if len(self.text) > DEEPEST and _is_too_deep(value):
+            # A chain such as 1+1+1+... is deep, though nothing in it is within anything else.
+            self._fail(TOO_DEEP)
         return value
 
     def _fail(self, expected: str) -> NoReturn:
         line = self.text.count("\n", 0, self.token.start) + 1
         column = self.token.start - (self.text.rfind("\n", 0, self.token.start) + 1) + 1
-        found = f"found {self.token.text[:30]!r}" if self.token.text else "found the end"
+        found = f"found {brief(repr(self.token.text), 32)}" if self.token.text else "found the end"
         at = f"column {column}" if "\n" not in self.text.strip() else f"line {line}, column {column}"
         raise InputError(
-            f"{self.where}: syntax error at {at}: expected {expected}, {found}: {self.text.strip()[:200]!r}"
+            f"{self.where}: syntax error at {at}: expected {expected}, {found}: {brief(repr(self.text.strip()), SHOWN)}"
         )
 
     def _scan(self, start: int) -> _Token:
@@ -135,7 +175,7 @@ class _Reader:
     def _term(self, limit: int) -> Value:
         self.depth += 1
         if self.depth > DEEPEST:
-            self._fail(f"at most {DEEPEST} levels of nesting")
+            self._fail(TOO_DEEP)
         left, priority = self._primary(limit)
         value = self._infix(left, priority, limit)
         self.depth -= 1

@@ -10,7 +10,7 @@ import math
 import re
 from dataclasses import dataclass
 
-from prolepsis.errors import InputError
+from prolepsis.errors import InputError, brief
 
 Dimension = tuple[int, int, int, int, int]
 """Powers of kilogram, metre, second, kelvin and radian."""
@@ -61,7 +61,8 @@ _BASES: dict[str, tuple[float, Dimension]] = {
 }
 _PREFIXES = {"G": 1e9, "M": 1e6, "k": 1e3, "c": 1e-2, "m": 1e-3, "u": 1e-6}
 _PREFIXED = ("g", "m", "s", "N", "Pa", "J", "l")
-_SYMBOL = re.compile(r"([A-Za-z%]+|1)(?:\^?(-?\d+))?\Z")
+_SYMBOL = re.compile(r"([A-Za-z%]+|1)(?:\^?(-?[0-9]))?")
+"""A symbol and its power of one digit; more would be no quantity of this world."""
 
 _QUDT = {
     "UNITLESS": "1",
@@ -109,11 +110,11 @@ def unit_of(symbol: str) -> Unit:
     groups = [(1, numerator)] + [(-1, part) for part in denominators]
     for sign, group in groups:
         for piece in re.split(r"[\s*·]+", group.strip()):
-            match = _SYMBOL.match(piece)
+            match = _SYMBOL.fullmatch(piece)
             found = _factor(match.group(1)) if match else None
             if match is None or found is None:
                 raise InputError(
-                    f"no unit {symbol!r}; known: products and quotients of {', '.join(_BASES)}, degC, "
+                    f"no unit {brief(repr(symbol))}; known: products and quotients of {', '.join(_BASES)}, degC, "
                     f"with the prefixes {', '.join(_PREFIXES)}, such as kg/m3, N/mm, Pa s"
                 )
             power = sign * int(match.group(2) or 1)
@@ -157,6 +158,14 @@ _SI_NAMES = (
 )
 
 
+def to_float(number: float) -> float:
+    """Return a number as a float, an integer that is too large for one as infinite."""
+    try:
+        return float(number)
+    except OverflowError:
+        return math.inf if number > 0 else -math.inf
+
+
 def to_si(value: float, unit: str, expected: str | None = None) -> float:
     """Return ``value`` in SI units.
 
@@ -170,18 +179,18 @@ def to_si(value: float, unit: str, expected: str | None = None) -> float:
     """
     given = unit_of(unit)
     if expected is not None and given.dimension != unit_of(expected).dimension:
-        raise InputError(f"unit {unit!r} does not fit: a unit such as {expected!r} is needed")
+        raise InputError(f"unit {brief(repr(unit))} does not fit: a unit such as {expected!r} is needed")
     return value * given.factor + given.offset
 
 
+LONGEST_QUANTITY = 1000
+"""Longest text that is read as a quantity [characters]."""
 _QUANTITY = re.compile(
-    r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+]?(?:nan|inf(?:inity)?)\b)\s*(.*?)\s*\Z", re.I
+    r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+]?(?:nan|inf(?:inity)?)\b)\s*(.*)", re.I | re.DOTALL
 )
 
 
 def read_quantity(text: str) -> tuple[float, str] | None:
     """Return number and unit symbol of ``"58 g"`` (the unit may be empty), or None if it is no quantity."""
-    match = _QUANTITY.match(text)
-    if match is None:
-        return None
-    return float(match.group(1)), match.group(2)
+    match = _QUANTITY.fullmatch(text.strip()) if len(text) <= LONGEST_QUANTITY else None
+    return None if match is None else (float(match.group(1)), match.group(2))

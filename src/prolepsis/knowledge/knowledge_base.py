@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from prolepsis.domain import Domain
-from prolepsis.errors import KnowledgeError, UnknownNameError
+from prolepsis.errors import KnowledgeError, UnknownNameError, brief
 from prolepsis.knowledge.declarations import read_vocabulary
 from prolepsis.knowledge.deriving import derive, masses_of
 from prolepsis.knowledge.describing import describe
@@ -108,6 +108,11 @@ class KnowledgeBase:
         self._require(name)
         return self.situation.wholes.get(name)
 
+    def place(self, name: str) -> str:
+        """Return file and line where an individual is introduced, or why it is there."""
+        self._require(name)
+        return self.situation.places[name]
+
     def relations(self) -> tuple[tuple[str, str, str], ...]:
         """Return the asserted relations between individuals but parthood: (relation, subject, object), sorted."""
         rows = {
@@ -144,7 +149,7 @@ class KnowledgeBase:
             return default
         known = self.value(name, property_name)
         if not isinstance(known.value, float):
-            raise KnowledgeError(f"{property_name} of {name} is no quantity but {known.value!r}")
+            raise KnowledgeError(f"{property_name} of {name} is no quantity but {brief(repr(known.value))}")
         return known.value
 
     def quantities(self, name: str) -> dict[str, Known]:
@@ -169,7 +174,7 @@ class KnowledgeBase:
         for key, value in values.items():
             name, dot, property_name = key.rpartition(".")
             if not dot:
-                raise KnowledgeError(f"a knowledge value is named individual.property, not {key!r}")
+                raise KnowledgeError(f"a knowledge value is named individual.property, not {brief(repr(key))}")
             self._require(name, where=key)
             entry = self.vocabulary.properties.get(property_name)
             if entry is None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -12,8 +13,14 @@ from rdflib import Graph, URIRef
 from rdflib.exceptions import ParserError
 from rdflib.plugins.parsers.notation3 import BadSyntax
 
-from prolepsis.errors import KnowledgeError
+from prolepsis.errors import KnowledgeError, brief
+from prolepsis.text_files import read_text
 
+# Its warnings about literals come with tracebacks; what matters of them is told where a value is read.
+logging.getLogger("rdflib").addHandler(logging.NullHandler())
+
+LONGEST_FILE = 16_000_000
+"""Longest Turtle file [bytes]; one of so many takes a minute to read."""
 NAMESPACE = "https://w3id.org/prolepsis#"
 """Every name of the ontology begins with this."""
 
@@ -65,12 +72,7 @@ def read_turtle(path: Path, *, built_in: bool = False) -> Document:
     Raises:
         KnowledgeError: If the file cannot be read or its syntax is wrong.
     """
-    try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise KnowledgeError(f"{path}: cannot read the Turtle file: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise KnowledgeError(f"{path}: the Turtle file is not UTF-8 text") from error
+    text = read_text(path, "Turtle file", most=LONGEST_FILE, error=KnowledgeError)
     return parse_turtle(text, path, built_in=built_in)
 
 
@@ -85,8 +87,10 @@ def parse_turtle(text: str, path: Path, *, built_in: bool = False) -> Document:
         graph.parse(data=text, format="turtle", publicID=path.absolute().as_uri())
     except BadSyntax as error:
         raise KnowledgeError(f"{path}:{error.lines + 1}: Turtle syntax: {_reason(error)}") from error
+    except RecursionError as error:
+        raise KnowledgeError(f"{path}: Turtle syntax: blank nodes or lists are nested too deeply") from error
     except (ParserError, ValueError) as error:
-        raise KnowledgeError(f"{path}: Turtle syntax: {' '.join(str(error).split())}") from error
+        raise KnowledgeError(f"{path}: Turtle syntax: {brief(error, 200)}") from error
     return Document(path=path, graph=graph, built_in=built_in, lines=first_lines(text))
 
 
@@ -98,7 +102,9 @@ def built_in_documents() -> tuple[Document, ...]:
 
 def _reason(error: BadSyntax) -> str:
     rest = error._str.decode()[error._i :].split("\n", 1)[0].strip()  # pyright: ignore[reportPrivateUsage]
-    return f"{error._why} at {rest[:40]!r}" if rest else str(error._why)  # pyright: ignore[reportPrivateUsage]
+    why = brief(error._why)  # pyright: ignore[reportPrivateUsage]
+    # One word: the file may be one that was not meant to be shown.
+    return f"{why} at {brief(repr(rest.split()[0]), 24)}" if rest else why
 
 
 def documents_of(sources: Sequence[Path | Document]) -> tuple[Document, ...]:

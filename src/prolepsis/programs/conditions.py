@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from prolepsis.errors import PlanError, UnknownNameError
+from prolepsis.errors import PlanError, UnknownNameError, brief
 from prolepsis.programs.action import FORCE, HAND, OBJECT, Parameter, bind, usage_of
 from prolepsis.programs.commands import Sense
 from prolepsis.scene.scene import Scene
@@ -75,7 +75,7 @@ def read_condition(value: Value, scene: Scene) -> Condition:
         UnknownNameError: If there is no such condition or object.
     """
     if not isinstance(value, Term):
-        raise PlanError(f"plan: {value} is no condition; one looks like touching(egg1, table1)")
+        raise PlanError(f"plan: {brief(value)} is no condition; one looks like touching(egg1, table1)")
     if value.functor == "not" and len(value.args) == 1:
         inner = read_condition(value.args[0], scene)
         return lambda sense: not inner(sense)
