@@ -6,11 +6,11 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from rdflib import OWL, RDF, RDFS, XSD, BNode, Namespace, URIRef
+from rdflib import OWL, RDF, RDFS, XSD, BNode, Literal, Namespace, URIRef
 from rdflib.collection import Collection
 from rdflib.term import Node
 
-from prolepsis.errors import KnowledgeError
+from prolepsis.errors import KnowledgeError, brief
 from prolepsis.knowledge.turtle import NAMESPACE, Document, local_name
 from prolepsis.knowledge.vocabulary import CERTAINTIES, ClassEntry, Curve, Default, DefaultPart, Property, Vocabulary
 from prolepsis.knowledge.written import read_value
@@ -67,7 +67,9 @@ def _number(document: Document, subject: Node, predicate: URIRef) -> float | Non
         return None if node is None else float(str(node))
     except ValueError:
         where = document.where(subject) if isinstance(subject, URIRef) else str(document.path)
-        raise KnowledgeError(f"{where}: {local_name(predicate)} must be a number, not {str(node)!r}") from None
+        raise KnowledgeError(
+            f"{where}: {local_name(predicate)} must be a number, not {brief(repr(str(node)))}"
+        ) from None
 
 
 def _property(document: Document, iri: URIRef) -> Property:
@@ -92,6 +94,7 @@ def _property(document: Document, iri: URIRef) -> Property:
         above=_number(document, iri, PRO.above),
         at_least=_number(document, iri, PRO.atLeast),
         at_most=_number(document, iri, PRO.atMost),
+        whole=(iri, PRO.whole, Literal(True)) in graph,
         functional=(iri, RDF.type, OWL.FunctionalProperty) in graph,
         parents=tuple(sorted(local_name(p) for p in graph.objects(iri, RDFS.subPropertyOf) if isinstance(p, URIRef))),
         range=ranges[0] if ranges and kind == "relation" else "",
@@ -153,7 +156,8 @@ def _provenance(document: Document, iri: URIRef, node: Node, what: str) -> tuple
     if certainty not in CERTAINTIES:
         known = ", ".join(f"{letter} ({meaning})" for letter, meaning in CERTAINTIES.items())
         raise KnowledgeError(
-            f"{document.where(iri)}: {what} of {local_name(iri)} has the certainty {certainty!r}; known: {known}"
+            f"{document.where(iri)}: {what} of {local_name(iri)} has the certainty {brief(repr(certainty), 30)}; "
+            f"known: {known}"
         )
     return source, certainty
 
@@ -229,7 +233,8 @@ def _deviation(entry: Property, node: Node, where: str) -> float:
         number = math.nan
     if entry.kind != "quantity" or not (math.isfinite(number) and number >= 0.0):
         raise KnowledgeError(
-            f"{where}: the deviation must be a finite number of at least 0, in the property's unit, not {str(node)!r}"
+            f"{where}: the deviation must be a finite number of at least 0, in the property's unit, not "
+            f"{brief(repr(str(node)))}"
         )
     return number * unit_of(entry.unit).factor
 

@@ -7,6 +7,7 @@ from rdflib.term import Node
 
 from prolepsis.errors import UnknownNameError
 from prolepsis.knowledge.declarations import PRO
+from prolepsis.knowledge.naming import refuse_unusable_names
 from prolepsis.knowledge.turtle import NAMESPACE, Document, local_name
 from prolepsis.knowledge.vocabulary import Vocabulary
 
@@ -64,6 +65,7 @@ def refuse_unknown_names(documents: tuple[Document, ...], vocabulary: Vocabulary
     for document in documents:
         if document.built_in:
             continue
+        refuse_unusable_names(document)
         for _, predicate, node in sorted(document.graph, key=str):
             if isinstance(predicate, URIRef) and predicate not in declared and not str(predicate).startswith(_COMMON):
                 raise refuse("property", predicate, document)

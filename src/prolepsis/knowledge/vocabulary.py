@@ -35,6 +35,8 @@ class Property:
     """Values must not be less than this [unit]."""
     at_most: float | None = None
     """Values must not be greater than this [unit]."""
+    whole: bool = False
+    """True if values must be whole numbers."""
     functional: bool = False
     """True if an individual has at most one value."""
     parents: tuple[str, ...] = ()
@@ -57,12 +59,14 @@ class Property:
         parts = [f"greater than {self.above:g}"] if self.above is not None else []
         parts += [f"at least {self.at_least:g}"] if self.at_least is not None else []
         parts += [f"at most {self.at_most:g}"] if self.at_most is not None else []
-        return " and ".join(parts) + (f" {self.unit}" if parts and self.unit not in ("", "1") else "")
+        bounds = " and ".join(parts) + (f" {self.unit}" if parts and self.unit not in ("", "1") else "")
+        return " ".join((["a whole number"] if self.whole else []) + ([bounds] if bounds else []))
 
     def admits(self, value: float) -> bool:
         """Return whether a value in SI units is within the bounds."""
         return not (
-            (self.above is not None and not value > to_si(self.above, self.unit))
+            (self.whole and not value.is_integer())
+            or (self.above is not None and not value > to_si(self.above, self.unit))
             or (self.at_least is not None and not value >= to_si(self.at_least, self.unit))
             or (self.at_most is not None and not value <= to_si(self.at_most, self.unit))
         )

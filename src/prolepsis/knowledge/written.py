@@ -5,7 +5,7 @@ from __future__ import annotations
 from rdflib import BNode, Literal, URIRef
 from rdflib.term import Node
 
-from prolepsis.errors import InputError, KnowledgeError
+from prolepsis.errors import InputError, KnowledgeError, brief
 from prolepsis.knowledge.turtle import local_name
 from prolepsis.knowledge.vocabulary import Property
 from prolepsis.units import read_quantity, to_si
@@ -24,25 +24,25 @@ def read_value(entry: Property, node: Node | str | float, *, where: str) -> floa
     """
     if entry.kind == "relation":
         if isinstance(node, (Literal, BNode)):
-            raise KnowledgeError(f"{where}: {entry.name} must name an individual, not {str(node)!r}")
+            raise KnowledgeError(f"{where}: {entry.name} must name an individual, not {brief(repr(str(node)))}")
         return local_name(node) if isinstance(node, URIRef) else str(node)
     if isinstance(node, (URIRef, BNode)):
-        raise KnowledgeError(f"{where}: {entry.name} must be a value, not {local_name(URIRef(str(node)))!r}")
+        raise KnowledgeError(f"{where}: {entry.name} must be a value, not {brief(repr(local_name(URIRef(str(node)))))}")
     text = str(node).strip()
     if entry.kind == "truth":
         if text.lower() not in ("true", "false", "1", "0"):
-            raise KnowledgeError(f"{where}: {entry.name} must be true or false, not {text!r}")
+            raise KnowledgeError(f"{where}: {entry.name} must be true or false, not {brief(repr(text))}")
         return "true" if text.lower() in ("true", "1") else "false"
     if entry.kind == "text":
         return text
     read = read_quantity(text)
     if read is None:
-        raise KnowledgeError(f"{where}: {entry.name} must be a number, with or without a unit, not {text!r}")
+        raise KnowledgeError(f"{where}: {entry.name} must be a number, with or without a unit, not {brief(repr(text))}")
     number, unit = read
     try:
         value = to_si(number, unit or entry.unit, entry.unit)
     except InputError as error:
-        raise KnowledgeError(f"{where}: {entry.name} = {text!r}: {error}") from error
+        raise KnowledgeError(f"{where}: {entry.name} = {brief(repr(text))}: {error}") from error
     return _bounded(entry, value, text, where)
 
 
@@ -50,5 +50,5 @@ def _bounded(entry: Property, value: float, text: str, where: str) -> float:
     finite = value - value == 0.0
     if not finite or not entry.admits(value):
         allowed = f" and {entry.bounds}" if entry.bounds else ""
-        raise KnowledgeError(f"{where}: {entry.name} = {text}: must be finite{allowed}")
+        raise KnowledgeError(f"{where}: {entry.name} = {brief(text)}: must be finite{allowed}")
     return value

@@ -8,12 +8,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from prolepsis.errors import PlanError, UnknownNameError
+from prolepsis.errors import PlanError, UnknownNameError, brief, brief_list
 from prolepsis.programs.commands import Behaviour
 from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.scene.scene import Scene
 from prolepsis.terms import Term, Value, Variable
 from prolepsis.things import Thing
+from prolepsis.units import to_float
 
 KINDS: Mapping[str, str] = {
     "hand": "name of a gripper",
@@ -49,6 +50,14 @@ UNITS: Mapping[str, str] = {
 """SI unit of each kind of quantity."""
 
 
+NEEDS: Mapping[str, str] = {
+    "anything": "an object",
+    "solid": "an object with a body of its own",
+    "loose": "an object with a body of its own that is not fixed",
+}
+"""What is asked of an object, in words: a hand holds only what is loose."""
+
+
 SIGNED = frozenset({"length", "angle"})
 """Kinds of quantities that may be zero or negative."""
 GREATEST: Mapping[str, float] = {
@@ -56,8 +65,12 @@ GREATEST: Mapping[str, float] = {
     "rate": ROBOT.max_turn_rate,
     "angle": math.pi,
     "count": 100.0,
+    "length": 100.0,
+    "displacement": 100.0,
+    "place": 100.0,
+    "duration": 86_400.0,
 }
-"""Greatest size of some kinds, in SI units: what the hand cannot follow is refused."""
+"""Greatest size of some kinds, in SI units: what the hand cannot follow, or takes more than a day, is refused."""
 HINTS: Mapping[str, str] = {
     "angle": '; degrees need a parameter such as { value = 90, unit = "deg" }',
     "rate": '; degrees need a parameter such as { value = 90, unit = "deg/s" }',
@@ -74,6 +87,8 @@ class Parameter:
     """One of ``KINDS``."""
     default: float | str | None = None
     """Value when the argument is left out; None if it must be given."""
+    needs: str = "anything"
+    """What an object must be, one of ``NEEDS``."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -139,6 +154,7 @@ OWN = frozenset(ROLES.values())
 HAND = Parameter(name="hand", kind="hand")
 ROBOT_NAME = Parameter(name="robot", kind="robot")
 OBJECT = Parameter(name="object", kind="object")
+HELD = Parameter(name="object", kind="object", needs="loose")
 FORCE = Parameter(name="force", kind="force")
 
 
@@ -152,7 +168,9 @@ def bind(parameters: tuple[Parameter, ...], term: Term, scene: Scene, usage: str
     needed = sum(parameter.default is None for parameter in parameters)
     if not needed <= len(term.args) <= len(parameters):
         shown = usage or f"{term.functor}({', '.join(each.name.capitalize() for each in parameters)})"
-        raise PlanError(f"plan: {term} has {len(term.args)} argument{'s' * (len(term.args) != 1)}, needed: {shown}")
+        raise PlanError(
+            f"plan: {brief(term)} has {len(term.args)} argument{'s' * (len(term.args) != 1)}, needed: {shown}"
+        )
     bound: dict[str, Any] = {}
     for k, parameter in enumerate(parameters):
         if k < len(term.args):
@@ -173,7 +191,7 @@ def _refuse_beyond(parameters: tuple[Parameter, ...], bound: dict[str, Any], ter
             elif limit is not None and bound[parameter.name] > limit:
                 unit = UNITS[parameter.kind]
                 raise PlanError(
-                    f"plan: {parameter.name} of {term} is {bound[parameter.name]:g} {unit}, "
+                    f"plan: {parameter.name} of {brief(term)} is {bound[parameter.name]:g} {unit}, "
                     f"{hand.name} can do {limit:.4g} {unit} at most"
                 )
 
@@ -188,19 +206,19 @@ LIMITS: Mapping[str, str] = {
 
 
 def _bind(parameter: Parameter, value: Value, term: Term, scene: Scene) -> Any:
-    where = f"plan: {parameter.name} of {term}"
+    where = f"plan: {parameter.name} of {brief(term)}"
     if isinstance(value, Variable):
         raise PlanError(f"{where} has no value; give parameter {value.name} one")
     if parameter.kind in ("hand", "robot", "object"):
         return _bind_thing(parameter, value, where, scene)
     if parameter.kind == "part":
         if value not in PARTS:
-            raise PlanError(f"{where} must be one of {', '.join(PARTS)}, not {value}")
+            raise PlanError(f"{where} must be one of {', '.join(PARTS)}, not {brief(value)}")
         return value
     if parameter.kind in LISTS:
         count, example = LISTS[parameter.kind]
         if isinstance(value, tuple) and len(value) == count and all(isinstance(v, int | float) for v in value):
-            return tuple(_finite(float(v), where) for v in value if isinstance(v, int | float))
+            return tuple(_within(parameter, to_float(v), where) for v in value if isinstance(v, int | float))
         raise PlanError(f"{where} must be a {KINDS[parameter.kind]}, such as {example}")
     if parameter.kind == "file":
         return _bind_file(value, where, scene)
@@ -211,36 +229,67 @@ def _bind(parameter: Parameter, value: Value, term: Term, scene: Scene) -> Any:
             raise UnknownNameError.of("force level", value, levels, where)
         return newtons
     if not isinstance(value, int | float) or isinstance(value, bool):
-        raise PlanError(f"{where} must be a number {KINDS[parameter.kind]}, not {value}")
-    number = _finite(float(value), where)
+        raise PlanError(f"{where} must be a number {KINDS[parameter.kind]}, not {brief(value)}")
+    number = _within(parameter, to_float(value), where)
+    if parameter.kind == "count" and not number.is_integer():
+        raise PlanError(f"{where} must be a whole number, not {number:g}")
     if parameter.kind not in SIGNED and number <= 0:
         raise PlanError(f"{where} must be positive, not {number:g} {UNITS.get(parameter.kind, '')}".rstrip())
-    if parameter.kind in GREATEST and abs(number) > GREATEST[parameter.kind]:
-        most = f"{GREATEST[parameter.kind]:.4g} {UNITS.get(parameter.kind, '')}".rstrip()
-        raise PlanError(f"{where} must be at most {most} in size, not {number:g}{HINTS.get(parameter.kind, '')}")
     return number
 
 
 def _bind_thing(parameter: Parameter, value: Value, where: str, scene: Scene) -> Thing:
     if not isinstance(value, str):
-        raise PlanError(f"{where} must be the {KINDS[parameter.kind]}, not {value}")
+        raise PlanError(f"{where} must be the {KINDS[parameter.kind]}, not {brief(value)}")
     role = ROLES.get(parameter.kind)
     choices = [t for t in scene.things if t.whole is None and (role in t.roles if role else not t.roles & OWN)]
     for thing in choices:
         if thing.name == value:
+            if parameter.needs != "anything":
+                _refuse_unless(_is_solid, thing, where, NEEDS["solid"], scene)
             return thing
     raise UnknownNameError.of(KINDS[parameter.kind].rsplit(" ", 1)[-1], value, (t.name for t in choices), where)
 
 
+def refuse_fixed(parameters: tuple[Parameter, ...], arguments: Mapping[str, Any], term: Term, scene: Scene) -> None:
+    """Refuse a fixed thing where an action needs one that a hand can hold.
+
+    Raises:
+        PlanError: With what could be held.
+    """
+    for parameter in parameters:
+        if parameter.needs == "loose":
+            where = f"plan: {parameter.name} of {brief(term)}"
+            _refuse_unless(_is_loose, arguments[parameter.name], where, NEEDS["loose"], scene)
+
+
+def _refuse_unless(fits: Callable[[Thing, Scene], bool], thing: Thing, where: str, needed: str, scene: Scene) -> None:
+    if not fits(thing, scene):
+        known = brief_list(t.name for t in scene.things if t.whole is None and not t.roles & OWN and fits(t, scene))
+        raise PlanError(f"{where} must be {needed}, not the {thing.kind} {thing.name}; known: {known}")
+
+
+def _is_solid(thing: Thing, scene: Scene) -> bool:
+    return any(each.shape.geoms for each in (thing, *scene.parts(thing.name))) and "Stuff" not in thing.roles
+
+
+def _is_loose(thing: Thing, scene: Scene) -> bool:
+    return _is_solid(thing, scene) and not thing.fixed
+
+
 def _bind_file(value: Value, where: str, scene: Scene) -> Path:
     if not isinstance(value, str):
-        raise PlanError(f"{where} must be the {KINDS['file']}, not {value}")
+        raise PlanError(f"{where} must be the {KINDS['file']}, not {brief(value)}")
     if not (scene.folder / value).is_file():
         raise PlanError(f"{where}: there is no file {scene.folder / value}")
     return scene.folder / value
 
 
-def _finite(number: float, where: str) -> float:
+def _within(parameter: Parameter, number: float, where: str) -> float:
     if not math.isfinite(number):
         raise PlanError(f"{where} must be finite, not {number:g}")
+    kind = parameter.kind
+    if kind in GREATEST and abs(number) > GREATEST[kind]:
+        most = f"{GREATEST[kind]:.5g} {UNITS.get(kind, 'm' if kind in LISTS else '')}".rstrip()
+        raise PlanError(f"{where} must be at most {most} in size, not {number:g}{HINTS.get(kind, '')}")
     return number

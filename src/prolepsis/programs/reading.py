@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import prolepsis.programs.actions as _actions
-from prolepsis.errors import PlanError, UnknownNameError
-from prolepsis.programs.action import ACTIONS, KINDS, UNITS, bind
+from prolepsis.errors import PlanError, UnknownNameError, brief, brief_list
+from prolepsis.programs.action import ACTIONS, KINDS, UNITS, bind, refuse_fixed
 from prolepsis.programs.combining import Maker, all_together, in_sequence, repeated
 from prolepsis.programs.conditions import read_condition
 from prolepsis.programs.nesting import as_event
@@ -73,7 +73,7 @@ def _read(plan: Value, scene: Scene) -> Maker:
     if isinstance(plan, Variable):
         raise PlanError(f"plan: {plan.name} stands where an action is needed")
     if not isinstance(plan, Term):
-        raise PlanError(f"plan: {plan} is no action; an action looks like lift(hand1, 0.1)")
+        raise PlanError(f"plan: {brief(plan)} is no action; an action looks like lift(hand1, 0.1)")
     if plan.functor in COMBINATORS:
         return _read_combinator(plan, scene)
     spec = ACTIONS.get(plan.functor)
@@ -82,6 +82,7 @@ def _read(plan: Value, scene: Scene) -> Maker:
     arguments = bind(spec.parameters, plan, scene, spec.usage())
     if spec.check is not None:
         spec.check(scene, **arguments)
+    refuse_fixed(spec.parameters, arguments, plan, scene)
 
     return lambda sense: as_event(plan, spec.behave(scene, sense, **arguments), sense)
 
@@ -108,8 +109,8 @@ def _refuse_shared_joints(parts: tuple[Value, ...], scene: Scene) -> None:
         shared = sorted(moved & {*taken})
         if shared:
             raise PlanError(
-                f"plan: two actions done together command {', '.join(shared)}: {taken[shared[0]]} and {part}; "
-                "put them in a sequence"
+                f"plan: two actions done together command {brief_list(shared)}: {brief(taken[shared[0]])} and "
+                f"{brief(part)}; put them in a sequence"
             )
         taken |= dict.fromkeys(moved, part)
 

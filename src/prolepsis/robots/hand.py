@@ -15,6 +15,11 @@ import numpy as np
 from prolepsis.engine import mujoco
 from prolepsis.things import FloatArray, Geom, Quaternion, Shape, Thing, Triple
 
+PARTS = ("palm", "left_finger", "right_finger")
+"""Parts of a free hand: the palm flies, the fingers slide in it."""
+PART_KIND = "Part"
+"""Class of the parts of hands and robots."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Hand:
@@ -114,7 +119,7 @@ class Hand:
             made.append(
                 Thing(
                     name=f"{name}/{part}",
-                    kind="Part",
+                    kind=PART_KIND,
                     shape=shape,
                     position=(float(place[0]), float(place[1]), float(place[2])),
                     orientation=orientation,
@@ -124,6 +129,11 @@ class Hand:
                 )
             )
         return tuple(made)
+
+    def part_of(self, thing: Thing) -> str:
+        """Return which part of a free hand a thing is: ``palm``, ``left_finger``, ``right_finger``, or empty."""
+        whole, _, part = thing.name.rpartition("/")
+        return part if part in PARTS and thing.kind == PART_KIND and whole == thing.whole else ""
 
     def add_joints(self, spec: Any, name: str, orientation: Quaternion) -> None:
         """Give the bodies of the hand called ``name`` in ``spec`` their joints, coupling and motors."""

@@ -9,11 +9,12 @@ from pathlib import Path
 import numpy as np
 
 from prolepsis.engine import mujoco
-from prolepsis.errors import KnowledgeError
+from prolepsis.errors import KnowledgeError, brief_list
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.robots.hand import HAND
 from prolepsis.robots.robot import Robot
 from prolepsis.scenario_file import DEFAULT_PARTICLES
+from prolepsis.scene.coherence import refuse_nonsense
 from prolepsis.scene.egg_inside import egg_pools
 from prolepsis.scene.liquids import is_liquid, liquid_thing, place_of, refuse_idle
 from prolepsis.scene.placing import resting_height
@@ -80,6 +81,7 @@ def compose(kb: KnowledgeBase, *, particles: int = DEFAULT_PARTICLES, robot: Rob
     Raises:
         KnowledgeError: If something has no shape or place that can be simulated.
     """
+    refuse_nonsense(kb)
     names = [name for name in kb.objects if kb.whole(name) is None]
     liquids = [name for name in names if is_liquid(kb, name)]
     wholes = [name for name in names if name not in liquids]
@@ -134,7 +136,7 @@ def _supporters_first(names: list[str], below: dict[str, str]) -> list[str]:
     while waiting:
         ready = [name for name in waiting if below.get(name) not in waiting]
         if not ready:
-            raise KnowledgeError(f"{', '.join(waiting)} rest on each other in a circle")
+            raise KnowledgeError(f"{brief_list(waiting)} rest on or are in each other, in a circle")
         ordered += ready
         waiting = [name for name in waiting if name not in ready]
     return ordered

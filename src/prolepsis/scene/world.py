@@ -142,8 +142,8 @@ def add_body(spec: Any, thing: Thing, ranks: Mapping[float, int], *, name: str |
     """Add one thing to the spec as a body with its geoms, and return the body."""
     parent = spec.worldbody
     position, orientation = thing.position, thing.orientation
-    jointed = thing.whole is not None and thing.name.endswith("_finger")
-    if jointed:
+    part = HAND.part_of(thing)
+    if part.endswith("_finger"):
         parent = spec.body(f"{thing.whole}/palm")
         palm_position, palm_orientation = np.asarray(parent.pos), np.asarray(parent.quat)
         inverse = np.zeros(4)
@@ -152,7 +152,7 @@ def add_body(spec: Any, thing: Thing, ranks: Mapping[float, int], *, name: str |
         mujoco.mju_rotVecQuat(local, np.asarray(thing.position) - palm_position, inverse)
         position, orientation = (float(local[0]), float(local[1]), float(local[2])), (1.0, 0.0, 0.0, 0.0)
     body = parent.add_body(name=name or thing.name, pos=list(position), quat=list(orientation))
-    if not thing.fixed and not thing.name.endswith(("/palm", "_finger")):
+    if not thing.fixed and not part:
         body.add_freejoint(name=name or thing.name)
     for k, mass in enumerate(_masses(thing)):
         add_geom(spec, body, thing, k, ranks, mass=mass)

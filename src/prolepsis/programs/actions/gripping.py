@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from prolepsis.programs.action import FORCE, HAND, OBJECT, Parameter, action
+from prolepsis.programs.action import FORCE, HAND, HELD, Parameter, action
 from prolepsis.programs.actions.motion import HEIGHT, SHORT, open_to, stay, within_workspace
 from prolepsis.programs.commands import Behaviour, CloseGripper, Sense
 from prolepsis.programs.grasping import CLEARANCE, grip_as_turned
@@ -37,7 +37,7 @@ def close(scene: Scene, sense: Sense, *, hand: Thing, force: float) -> Behaviour
     return (yield from close_from(hand, hand.quantities["maxOpening"], force, sense))
 
 
-@action(HAND, OBJECT, FORCE, HEIGHT, SHORT, check=within_workspace)
+@action(HAND, HELD, FORCE, HEIGHT, SHORT, check=within_workspace)
 def grasp(
     scene: Scene, sense: Sense, *, hand: Thing, object: Thing, force: float, height: float, short: float
 ) -> Behaviour:
@@ -52,7 +52,7 @@ def grasp(
     return (yield from close_from(hand, grip.width + CLEARANCE, force, sense))
 
 
-@action(HAND, OBJECT, FORCE, Parameter(name="duration", kind="duration", default=1.0))
+@action(HAND, HELD, FORCE, Parameter(name="duration", kind="duration", default=1.0))
 def squeeze(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, force: float, duration: float) -> Behaviour:
     """Press what the hand holds with the given force for a while, then hold it as before."""
     del scene, object

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from prolepsis.errors import PlanError
-from prolepsis.programs.action import HAND, OBJECT, Parameter, action
+from prolepsis.programs.action import HAND, Parameter, action
 from prolepsis.programs.commands import ActionFailedError, Behaviour, HandTarget, OpenGripper, Sense, Way
 from prolepsis.programs.following import follow, go
 from prolepsis.programs.grasping import (
@@ -36,6 +36,7 @@ OPENING_SPEED = 0.2
 
 SPEED = Parameter(name="speed", kind="speed", default=0.25)
 ACCELERATION = Parameter(name="acceleration", kind="acceleration", default=1.0)
+REACHED = Parameter(name="object", kind="object", needs="solid")
 HEIGHT = Parameter(name="height", kind="length", default=0.0)
 SHORT = Parameter(name="short", kind="length", default=0.0)
 
@@ -113,7 +114,7 @@ def within_workspace(scene: Scene, *, hand: Thing, object: Thing, **_: object) -
         )
 
 
-@action(HAND, OBJECT, SPEED, HEIGHT, SHORT, check=within_workspace)
+@action(HAND, REACHED, SPEED, HEIGHT, SHORT, check=within_workspace)
 def reach(
     scene: Scene, sense: Sense, *, hand: Thing, object: Thing, speed: float, height: float, short: float
 ) -> Behaviour:

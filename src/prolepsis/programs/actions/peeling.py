@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from prolepsis.errors import PlanError
-from prolepsis.programs.action import FORCE, HAND, OBJECT, Parameter, action
+from prolepsis.programs.action import FORCE, HAND, HELD, Parameter, action
 from prolepsis.programs.actions.gripping import close_from
 from prolepsis.programs.actions.motion import open_to, stay, travel
 from prolepsis.programs.commands import Behaviour, HandTarget, Note, Sense, Way, no_way
@@ -104,7 +104,7 @@ def _can_peel(scene: Scene, *, hand: Thing, other: Thing, object: Thing, **_: ob
     check_two_arms(scene, "peel", hand, other, object)
 
 
-@action(HAND, OTHER, OBJECT, FORCE, Parameter(name="tries", kind="count", default=4.0), check=_can_peel)
+@action(HAND, OTHER, HELD, FORCE, Parameter(name="tries", kind="count", default=4.0), check=_can_peel)
 def peel(
     scene: Scene, sense: Sense, *, hand: Thing, other: Thing, object: Thing, force: float, tries: float
 ) -> Behaviour:

@@ -61,8 +61,8 @@ def _can_pour(
 
 @action(
     HAND,
-    Parameter(name="source", kind="object"),
-    Parameter(name="target", kind="object"),
+    Parameter(name="source", kind="object", needs="loose"),
+    Parameter(name="target", kind="object", needs="solid"),
     Parameter(name="angle", kind="angle", default=math.radians(110.0)),
     RATE,
     Parameter(name="height", kind="length", default=0.02),

@@ -7,7 +7,7 @@ from collections.abc import Generator
 
 import numpy as np
 
-from prolepsis.programs.action import FORCE, HAND, OBJECT, Parameter, action
+from prolepsis.programs.action import FORCE, HAND, HELD, Parameter, action
 from prolepsis.programs.actions.gripping import close_from
 from prolepsis.programs.actions.motion import MARGIN, open_to, stay, travel
 from prolepsis.programs.combining import Maker, all_together
@@ -36,7 +36,7 @@ def _can_split(scene: Scene, *, hand: Thing, other: Thing, object: Thing, **_: o
 @action(
     HAND,
     OTHER,
-    OBJECT,
+    HELD,
     FORCE,
     Parameter(name="angle", kind="angle", default=math.radians(30.0)),
     Parameter(name="distance", kind="length", default=0.08),

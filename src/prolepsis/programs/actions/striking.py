@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from prolepsis.errors import PlanError
-from prolepsis.programs.action import HAND, OBJECT, Parameter, action
+from prolepsis.programs.action import HAND, HELD, Parameter, action
 from prolepsis.programs.actions.motion import stay, travel, travel_over
 from prolepsis.programs.commands import ActionFailedError, Behaviour, HandTarget, Note, Sense
 from prolepsis.programs.following import follow
@@ -38,7 +38,7 @@ RATE = 8.0
 RAMP_TIME, HOLD_TIME = 1.0, 0.5
 """A push grows to its force in this time, and is held for this time [s]."""
 
-AGAINST = Parameter(name="against", kind="object")
+AGAINST = Parameter(name="against", kind="object", needs="solid")
 PART = Parameter(name="part", kind="part", default="edge")
 
 
@@ -49,7 +49,7 @@ def _has_part(scene: Scene, *, object: Thing, against: Thing, part: str, **_: ob
     spots(against, part)
 
 
-@action(HAND, OBJECT, AGAINST, Parameter(name="speed", kind="speed", default=0.25), PART, check=_has_part)
+@action(HAND, HELD, AGAINST, Parameter(name="speed", kind="speed", default=0.25), PART, check=_has_part)
 def hit(
     scene: Scene, sense: Sense, *, hand: Thing, object: Thing, against: Thing, speed: float, part: str
 ) -> Behaviour:
@@ -95,7 +95,7 @@ def _blow(length: float, speed: float) -> FloatArray:
 
 @action(
     HAND,
-    OBJECT,
+    HELD,
     AGAINST,
     Parameter(name="force", kind="push"),
     Parameter(name="part", kind="part", default="top"),
@@ -122,7 +122,9 @@ def press(
     return (yield from travel(hand, sense, (0.0, 0.0, BACK), 2.0, BACK_SPEED))
 
 
-@action(HAND, Parameter(name="target", kind="object"), Parameter(name="height", kind="length", default=0.08))
+@action(
+    HAND, Parameter(name="target", kind="object", needs="solid"), Parameter(name="height", kind="length", default=0.08)
+)
 def bring(scene: Scene, sense: Sense, *, hand: Thing, target: Thing, height: float) -> Behaviour:
     """Move the hand, turned as it is and with what it holds, to a height over the middle of something's top."""
     del scene

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from prolepsis.programs.action import HAND, OBJECT, Parameter, action
+from prolepsis.programs.action import HAND, HELD, Parameter, action
 from prolepsis.programs.actions.motion import TICK, line, travel
 from prolepsis.programs.commands import Behaviour, HandTarget, Sense
 from prolepsis.scene.scene import Scene
@@ -20,8 +20,8 @@ LIFT_SPEED = 0.05
 
 @action(
     HAND,
-    OBJECT,
-    Parameter(name="surface", kind="object"),
+    HELD,
+    Parameter(name="surface", kind="object", needs="solid"),
     Parameter(name="displacement", kind="displacement"),
     Parameter(name="strokes", kind="count", default=2.0),
     Parameter(name="force", kind="push", default=1.0),
