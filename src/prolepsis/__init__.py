@@ -14,13 +14,16 @@ from __future__ import annotations
 
 import importlib
 import os
-from typing import TYPE_CHECKING, Any
 
 # The matrices here are small: more threads of the linear algebra library only get in each other's way, and while a
 # run is computed there is one in any case (``threads``).
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+TYPE_CHECKING = False
+"""As in ``typing``, whose import takes longer than all else here: Ctrl-C would come before anybody listens."""
 if TYPE_CHECKING:
+    from typing import Any
+
     from prolepsis.campaign import Outcomes, sweep
     from prolepsis.domain import Domain
     from prolepsis.errors import (

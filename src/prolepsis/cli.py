@@ -7,8 +7,11 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
-from typing import Any, TextIO
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from typing import Any, TextIO
 
 ANSWERED, NO, BAD_INPUT, INVALID, UNEXPECTED = 0, 1, 2, 3, 4
 INTERRUPTED = 130
@@ -21,12 +24,31 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit status; ``arguments`` are those of the process if None."""
     given = sys.argv[1:] if arguments is None else arguments
     try:
+        if arguments is None:
+            import signal
+
+            signal.signal(signal.SIGINT, _interrupt)
         status = _answer(given)
     except KeyboardInterrupt:
         status = _tell("interrupted; nothing was written", INTERRUPTED)
     if arguments is None:
-        _let_end()
+        # All is said, and another Ctrl-C would only show how Python takes itself apart.
+        import signal
+
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
     return status
+
+
+class _Interrupted(KeyboardInterrupt):
+    """Ctrl-C. With KeyboardInterrupt itself, Python may end by the signal instead of with our status."""
+
+    happened = False
+
+
+def _interrupt(number: int, frame: object) -> None:
+    del number, frame
+    _Interrupted.happened = True
+    raise _Interrupted
 
 
 def _answer(given: Sequence[str]) -> int:
@@ -48,8 +70,6 @@ def _answer(given: Sequence[str]) -> int:
 
 
 def _run(given: Sequence[str]) -> int:
-    from prolepsis.errors import InputError, InvalidSimulationError, MissingToolError
-
     try:
         from prolepsis.commands.output import notes_told
         from prolepsis.commands.parser import parser
@@ -57,19 +77,29 @@ def _run(given: Sequence[str]) -> int:
         read = parser().parse_args(given)
         with notes_told():
             return read.run(read)
-    except InvalidSimulationError as error:
-        return _tell(error, INVALID)
-    except (InputError, MissingToolError) as error:
-        return _tell(error, BAD_INPUT)
-    except OSError as error:
-        if error.strerror is None or isinstance(error, BrokenPipeError):
-            return _fail(error, given)
-        names = [os.fsdecode(name) for name in (error.filename, error.filename2) if isinstance(name, str | bytes)]
-        return _tell(": ".join([*names, error.strerror]), BAD_INPUT)
     except (KeyboardInterrupt, SystemExit, GeneratorExit):
         raise
     except BaseException as error:  # Rust's panics, for one, are no Exception.
-        return _fail(error, given)
+        if _Interrupted.happened:
+            # A library that was being loaded has made an error of its own of it.
+            raise _Interrupted from error
+        return _refuse(error, given)
+
+
+def _refuse(error: BaseException, given: Sequence[str]) -> int:
+    """Say what is wrong, and return the exit status that says whose matter it is."""
+    from prolepsis.errors import InputError, InvalidSimulationError, MissingToolError
+
+    match error:
+        case InvalidSimulationError():
+            return _tell(error, INVALID)
+        case InputError() | MissingToolError():
+            return _tell(error, BAD_INPUT)
+        case OSError(strerror=str(reason)) if not isinstance(error, BrokenPipeError):
+            names = [os.fsdecode(name) for name in (error.filename, error.filename2) if isinstance(name, str | bytes)]
+            return _tell(": ".join([*names, reason]), BAD_INPUT)
+        case _:
+            return _fail(error, given)
 
 
 def _fail(error: BaseException, given: Sequence[str]) -> int:
@@ -146,10 +176,3 @@ def _standard_output() -> TextIO | None:
     if output is not None and callable(reconfigure := getattr(output, "reconfigure", None)):
         reconfigure(errors="backslashreplace")
     return output
-
-
-def _let_end() -> None:
-    """Let the process end undisturbed: all is said, and Ctrl-C would only show how Python takes itself apart."""
-    import signal
-
-    signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -2,9 +2,21 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
-import mujoco as _mujoco  # pyright: ignore[reportMissingTypeStubs]
+from prolepsis.errors import MissingToolError, brief
+
+try:
+    import mujoco as _mujoco  # pyright: ignore[reportMissingTypeStubs]
+# It imports OpenGL, too, whose faults have many shapes.
+except (ImportError, RuntimeError, AttributeError, OSError, TypeError) as error:
+    chosen = os.environ.get("MUJOCO_GL")
+    cause = (
+        f"cannot be imported ({brief(error)})" if chosen is None else f"does not start with MUJOCO_GL={brief(chosen)}"
+    )
+    cure = "pip install mujoco" if chosen is None else "unset MUJOCO_GL, or set it to egl or osmesa"
+    raise MissingToolError(f"MuJoCo {cause}; {cure}") from error
 
 mujoco: Any = _mujoco
 

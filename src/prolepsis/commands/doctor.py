@@ -119,9 +119,9 @@ def _pictures() -> str:
     try:
         import numpy as np
 
+        from prolepsis.engine import mujoco
         from prolepsis.report.offscreen import Camera
 
-        mujoco: Any = importlib.import_module("mujoco")
         spec = mujoco.MjSpec()
         spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=(1.0, 0.0, 0.0), rgba=(1.0, 0.0, 0.0, 1.0))
         model = spec.compile()

@@ -10,6 +10,7 @@ import time
 import warnings
 from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from contextlib import contextmanager
+from types import FrameType
 from typing import TYPE_CHECKING, Any, TextIO
 
 from prolepsis.errors import InputError, Note, error_line
@@ -65,10 +66,11 @@ def progress_line(wanted: bool) -> Generator[Callable[[str], None]]:
     width = 0
     interrupted = False
 
-    def interrupt(number: int, frame: object) -> None:
+    def interrupt(number: int, frame: FrameType | None) -> None:
         nonlocal interrupted
-        del number, frame
         interrupted = True
+        if callable(before):
+            before(number, frame)
         raise KeyboardInterrupt
 
     def show(doing: str) -> None:
