@@ -37,6 +37,8 @@ class Row:
     """Whether it was the physics that failed."""
     unexpected: str | None = None
     """Of a failure that nobody foresaw, where it happened as Python tells it, or what became of the process."""
+    unchecked: str = ""
+    """Why it was not decided whether its knowledge contradicts itself; empty if it does not."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -162,7 +164,9 @@ def _run(scenario: Scenario, values: dict[str, float | str], ask: str | None, li
         grasp = judge_grasp(result.timeline, result.log) if result.timeline.select(type="grasping") else None
     except ProlepsisError as error:
         return Row(values=values, error=str(error), invalid=isinstance(error, InvalidSimulationError))
-    return Row(values=values, level=_newtons(grasp, result.scene.number), grasp=grasp, answers=answers)
+    unchecked = result.timeline.domain.unchecked
+    level = _newtons(grasp, result.scene.number)
+    return Row(values=values, level=level, grasp=grasp, answers=answers, unchecked=unchecked)
 
 
 def _newtons(grasp: Grasp | None, number: Callable[[str, str], float | None]) -> float | None:

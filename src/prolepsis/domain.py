@@ -17,3 +17,5 @@ class Domain:
     """(individual, property, value), quantities in SI units."""
     relations: tuple[tuple[str, str, str], ...] = ()
     """(relation, subject, object): asserted relations, which hold at 0.0."""
+    unchecked: str = ""
+    """Why it was not decided whether this contradicts itself; empty if it does not."""

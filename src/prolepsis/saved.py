@@ -54,15 +54,19 @@ def _time(number: Any, least: float) -> float:
 
 def _domain(table: Any) -> Domain:
     """Return the domain whose rows these are; each has as many texts as its kind of row, and values may be numbers."""
-    columns = {each.name: 3 if each.name in ("values", "relations") else 2 for each in fields(Domain)}
-    if not isinstance(table, dict) or cast("dict[str, Any]", table).keys() != columns.keys():
-        raise ValueError(f"{DOMAIN} must be an object with {', '.join(columns)}")
+    names = [each.name for each in fields(Domain)]
+    if not isinstance(table, dict) or cast("dict[str, Any]", table).keys() != set(names):
+        raise ValueError(f"{DOMAIN} must be an object with {', '.join(names)}")
     rows = cast("dict[str, Any]", table)
+    unchecked = rows["unchecked"]
+    if not isinstance(unchecked, str):
+        raise ValueError(f"{DOMAIN}: unchecked must be a text")
+    columns = {name: 3 if name in ("values", "relations") else 2 for name in names if name != "unchecked"}
     for name, count in columns.items():
         kinds = (str,) * (count - 1) + ((str, int, float) if name == "values" else str,)
         if not isinstance(rows[name], list) or not all(_is_row(row, kinds) for row in rows[name]):
             raise ValueError(f"{DOMAIN}: {name} must be a list of rows of {count}")
-    return Domain(**{name: tuple(tuple(row) for row in rows[name]) for name in columns})
+    return Domain(**{name: tuple(tuple(row) for row in rows[name]) for name in columns}, unchecked=unchecked)
 
 
 def _is_row(row: Any, kinds: tuple[Any, ...]) -> bool:

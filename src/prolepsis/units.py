@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
+from functools import lru_cache
 
 from prolepsis.errors import InputError, brief
 
@@ -96,6 +97,7 @@ def _factor(symbol: str) -> tuple[float, Dimension] | None:
     return None
 
 
+@lru_cache(maxsize=256)
 def unit_of(symbol: str) -> Unit:
     """Return the unit that is written ``symbol``; the empty string is the number one.
 
@@ -128,6 +130,7 @@ def qudt_symbol(name: str) -> str | None:
     return _QUDT.get(name)
 
 
+@lru_cache(maxsize=256)
 def si_symbol(unit: Unit) -> str:
     """Return how the SI unit of ``unit``'s dimension is written (``kg`` for ``g``)."""
     for symbol in _SI_NAMES:

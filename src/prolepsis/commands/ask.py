@@ -7,7 +7,7 @@ import json
 import os
 from typing import Any
 
-from prolepsis.commands.output import add_command, bindings, plain
+from prolepsis.commands.output import add_command, bindings, plain, warn_unchecked
 from prolepsis.errors import InputError
 
 EXAMPLE = """\
@@ -39,7 +39,9 @@ def run(given: argparse.Namespace) -> int:
         os.environ["PROLEPSIS_REQUIRE_CONFINEMENT"] = "1"
     from prolepsis.saved import read_timeline
 
-    answers = read_timeline(given.folder).ask(given.goal, limit=given.limit)
+    timeline = read_timeline(given.folder)
+    answers = timeline.ask(given.goal, limit=given.limit)
+    warn_unchecked(timeline.domain.unchecked)
     for answer in answers:
         if given.json:
             print(json.dumps({name: plain(value) for name, value in answer.items()}, ensure_ascii=False))

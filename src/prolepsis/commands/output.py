@@ -122,6 +122,12 @@ def notes_told() -> Generator[None]:
         yield
 
 
+def warn_unchecked(why: str) -> None:
+    """Say that an answer rests on knowledge that was not checked, if it does."""
+    if why:
+        warnings.warn(f"unchecked: {why}", Note, stacklevel=2)
+
+
 def plain(value: Value) -> Any:
     """Return an answer's value for JSON: numbers, names and lists as they are, terms as Prolog writes them."""
     from prolepsis.terms import format_value

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from prolepsis.commands.output import add_command, add_progress, progress_line, settings
+from prolepsis.commands.output import add_command, add_progress, progress_line, settings, warn_unchecked
 
 EXAMPLE = """\
   prolepsis project examples/grasp_egg.toml --set Force='20 N' --out out/grasp
@@ -35,6 +35,7 @@ def run(given: argparse.Namespace) -> int:
 
     with progress_line(given.progress) as show:
         result = project(given.scenario, out=given.out, settings=chosen, progress=show)
+    warn_unchecked(result.timeline.domain.unchecked)
     facts = len(result.timeline.facts)
     where = f", saved in {given.out}" if given.out else "; give --out DIR to keep them"
     print(f"{result.log.duration:g} s simulated, {facts} facts recognized{where}")

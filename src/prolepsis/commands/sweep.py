@@ -7,7 +7,16 @@ import json
 import sys
 from typing import TYPE_CHECKING, Any
 
-from prolepsis.commands.output import add_command, add_progress, bindings, plain, progress_line, settings, table
+from prolepsis.commands.output import (
+    add_command,
+    add_progress,
+    bindings,
+    plain,
+    progress_line,
+    settings,
+    table,
+    warn_unchecked,
+)
 from prolepsis.errors import InputError
 
 if TYPE_CHECKING:
@@ -71,6 +80,7 @@ def run(given: argparse.Namespace) -> int:
             progress=show,
         )
     print(as_json(outcomes) if given.json else report(outcomes))
+    warn_unchecked(next((row.unchecked for row in outcomes.rows if row.unchecked), ""))
     if getattr(given, "traceback", False):
         for row in outcomes.rows:
             if row.unexpected:

@@ -7,7 +7,7 @@ import json
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from prolepsis.commands.output import add_command, table
+from prolepsis.commands.output import add_command, table, warn_unchecked
 
 if TYPE_CHECKING:
     from prolepsis.timeline import Timeline
@@ -32,6 +32,7 @@ def run(given: argparse.Namespace) -> int:
     from prolepsis.saved import read_timeline
 
     timeline = read_timeline(given.folder)
+    warn_unchecked(timeline.domain.unchecked)
     if given.json:
         for row in timeline.to_json():
             print(json.dumps(row, ensure_ascii=False))

@@ -260,10 +260,11 @@ def assertions(
         for class_name in told:
             reading = f"{name} is {_with_article(class_name)}"
             axioms.append(Axiom(f"ClassAssertion(<{vocabulary.classes[class_name].iri}> <{iri}>)", reading, place))
-        stated = {s.property for s in situation.statements if s.subject == name}
         for entry_name, own in cells.items():
             default = (
-                None if entry_name in stated or len(own.samples) < 2 else told_default(vocabulary, told, entry_name)
+                None
+                if (name, entry_name) in situation.said or len(own.samples) < 2
+                else told_default(vocabulary, told, entry_name)
             )
             if default is not None:
                 class_name, value = default

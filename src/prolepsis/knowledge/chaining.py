@@ -1,150 +1,351 @@
-"""Forward chaining: the types of individuals that follow step by step; the reasoner certifies that there are no others.
+"""Forward chaining: the types of individuals that follow step by step, and a model that shows that no others do.
 
-Each rule here is a valid inference, so what it derives is right; it does not find everything (no reasoning by
-cases), which is why the reasoner has the last word.
+Each rule here is a valid inference, so what it derives is right. What has been derived is a structure of things with
+types and links; if all axioms hold in it, it is a model, and what is not in it does not follow. Only where it is none
+(reasoning by cases, counting) the reasoner has the last word. The work grows like the number of individuals: a rule is
+looked at again only where something new touches it.
 """
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Iterator
+from collections import deque
+from collections.abc import Iterable
 
-from prolepsis.knowledge.axioms import THING, Axiom
+from prolepsis.knowledge.axioms import NOTHING, THING, Axiom
+from prolepsis.knowledge.structures import Structure, Tree, parse_axiom
 
-Tree = str | tuple["Tree", ...]
-"""An axiom or expression: an IRI, or a functor with its arguments."""
+DEPTH = 3
+"""Values without a name are made up to this many steps away from a named individual: an egg's shell's strength ..."""
+MOST_STEPS = 20_000_000
+"""... and chaining ends, undecided, after so many steps: about a minute, but the same on every machine."""
 
-_TOKENS = re.compile(r"<[^<>]*>|\"[^\"]*\"|[A-Za-z]+\(|\)|[^\s()]+")
+_Rule = tuple[Tree, Tree]
 
 
-def parse_axiom(text: str) -> Tree:
-    """Return the tree of one axiom in functional syntax."""
-    stack: list[list[Tree]] = [[]]
-    for token in _TOKENS.findall(text):
-        if token.endswith("("):
-            stack.append([token[:-1]])
-        elif token == ")":
-            closed = tuple(stack.pop())
-            stack[-1].append(closed)
-        else:
-            stack[-1].append(token)
-    return stack[0][0]
+class StepsError(Exception):
+    """Chaining took more steps than it may."""
 
 
 class Chaining:
-    """Types and links of individuals, growing until nothing new follows.
-
-    This is the one mutable value here, made and used up within ``chain``.
-    """
+    """A structure that grows until nothing new follows. This is the one mutable value here."""
 
     def __init__(self, axioms: Iterable[Axiom]) -> None:
-        self.types: dict[str, set[str]] = {}
-        self.links: set[tuple[str, str, str]] = set()
-        self.rules: list[tuple[Tree, Tree]] = []
-        self.roles: list[tuple[str, str, bool]] = []
-        for axiom in axioms:
-            self._take(parse_axiom(axiom.text))
+        self.axioms = tuple(parse_axiom(axiom.text) for axiom in axioms)
+        self.structure = Structure()
+        self.clash: str | None = None
+        """A thing that can be nothing."""
+        self.steps = 0
+        self._rules: dict[str, list[_Rule]] = {}
+        self._some: dict[str, list[tuple[Tree, str]]] = {}
+        self._fillers: dict[tuple[str, bool], list[tuple[str, str]]] = {}
+        self._uppers: dict[str, list[tuple[str, bool]]] = {}
+        self.functional: set[str] = set()
+        """Roles with at most one value."""
+        self._transitive: set[str] = set()
+        self._only: dict[tuple[str, Tree], list[Tree]] = {}
+        self._news: deque[tuple[str, str]] = deque()
+        self._wanted: deque[tuple[str, Tree, Tree]] = deque()
+        self._put_off: deque[tuple[str, Tree, Tree]] = deque()
+        self._origin: dict[str, tuple[str, int]] = {}
+        self._shared: dict[tuple[str, Tree, Tree], str] | None = None
+        for tree in self.axioms:
+            self._read_term(tree)
+        for tree in self.axioms:
+            self._read_fact(tree)
 
-    def _take(self, tree: Tree) -> None:
+    def _read_term(self, tree: Tree) -> None:
         match tree:
             case ("SubClassOf", left, right):
-                self.rules.append((left, right))
+                self._rule(left, right)
             case ("EquivalentClasses", left, right):
-                self.rules += [(left, right), (right, left)]
+                self._rule(left, right)
+                self._rule(right, left)
             case ("ObjectPropertyDomain", role, right):
-                self.rules.append((("ObjectSomeValuesFrom", role, THING[0]), right))
+                self._rule(("ObjectSomeValuesFrom", role, THING[0]), right)
             case ("ObjectPropertyRange", role, right):
-                self.rules.append((("ObjectSomeValuesFrom", ("ObjectInverseOf", role), THING[0]), right))
+                self._rule(("ObjectSomeValuesFrom", ("ObjectInverseOf", role), THING[0]), right)
             case ("SubObjectPropertyOf", str(lower), str(upper)):
-                self.roles.append((lower, upper, False))
+                self._uppers.setdefault(lower, []).append((upper, False))
+            case ("EquivalentObjectProperties", str(one), str(other)):
+                self._uppers.setdefault(one, []).append((other, False))
+                self._uppers.setdefault(other, []).append((one, False))
             case ("InverseObjectProperties", str(one), str(other)):
-                self.roles += [(one, other, True), (other, one, True)]
-            case ("ClassAssertion", expression, str(individual)):
-                self.types.setdefault(individual, set())
-                self._derive(individual, expression)
-            case ("ObjectPropertyAssertion", str(role), str(subject), str(value)):
-                self._link(role, subject, value)
+                self._uppers.setdefault(one, []).append((other, True))
+                self._uppers.setdefault(other, []).append((one, True))
+            case ("SymmetricObjectProperty", str(role)):
+                self._uppers.setdefault(role, []).append((role, True))
+            case ("FunctionalObjectProperty", str(role)):
+                self.functional.add(role)
+            case ("TransitiveObjectProperty", str(role)):
+                self._transitive.add(role)
             case _:
                 pass
 
-    def _link(self, role: str, subject: str, value: str) -> bool:
-        self.types.setdefault(subject, set())
-        self.types.setdefault(value, set())
-        known = len(self.links)
-        self.links.add((role, subject, value))
-        return len(self.links) > known
-
-    def _successors(self, role: Tree, node: str) -> Iterator[str]:
-        match role:
-            case ("ObjectInverseOf", str(name)):
-                return (s for r, s, v in sorted(self.links) if r == name and v == node)
+    def _read_fact(self, tree: Tree) -> None:
+        match tree:
+            case ("ClassAssertion", expression, str(individual)):
+                self._node(individual)
+                self._derive(individual, expression)
+            case ("ObjectPropertyAssertion", str(role), str(subject), str(value)):
+                self._link(role, subject, value)
+            case ("DifferentIndividuals", *individuals):
+                for individual in individuals:
+                    self._node(str(individual))
             case _:
-                return (v for r, s, v in sorted(self.links) if r == role and s == node)
+                pass
 
-    def _holds(self, node: str, expression: Tree) -> bool:
+    def _rule(self, left: Tree, right: Tree) -> None:
+        if isinstance(right, tuple) and right[0] == "ObjectComplementOf":
+            left, right = ("ObjectIntersectionOf", left, right[1]), NOTHING[0]
+        condition = self._condition(left)
+        for name in _atoms(condition):
+            self._rules.setdefault(name, []).append((condition, right))
+
+    def _condition(self, left: Tree) -> Tree:
+        """Return an expression as a combination of names; a step over a role gets a name of its own.
+
+        What can never be derived here, such as a complement, is named too, and nothing ever gets that name.
+        """
+        match left:
+            case str(name):
+                return name
+            case ("ObjectIntersectionOf" | "ObjectUnionOf" as functor, *parts):
+                return (functor, *(self._condition(part) for part in parts))
+            case ("ObjectMinCardinality", "1", role, filler):
+                return self._condition(("ObjectSomeValuesFrom", role, filler))
+            case ("ObjectHasValue", role, str(value)):
+                return self._step(role, f"one {value}", left)
+            case ("ObjectOneOf", *values):
+                return ("ObjectUnionOf", *(f"one {value}" for value in values))
+            case ("ObjectSomeValuesFrom", role, str(filler)):
+                return self._step(role, filler, left)
+            case ("ObjectSomeValuesFrom", role, filler):
+                named = f"is {filler}"
+                if named not in self._some:
+                    self._some.setdefault(named, [])
+                    self._rule(filler, named)
+                return self._step(role, named, left)
+            case _:
+                return f"never {left}"
+
+    def _step(self, role: Tree, filler: str, expression: Tree) -> str:
+        name = f"is {expression}"
+        inverse, plain = (True, str(role[1])) if isinstance(role, tuple) else (False, role)
+        fillers = self._fillers.setdefault((plain, inverse), [])
+        if (filler, name) not in fillers:
+            fillers.append((filler, name))
+            # What has the filler now, tells this to those that are linked to it: from the other end of the role.
+            back: Tree = plain if inverse else ("ObjectInverseOf", plain)
+            self._some.setdefault(filler, []).append((back, name))
+        return name
+
+    def _node(self, node: str, root: str = "", depth: int = 0) -> None:
+        if node not in self.structure.types:
+            self.structure.types[node] = {}
+            self._origin[node] = (root or node, depth)
+            self._add(node, THING[0])
+            self._add(node, f"one {node}")
+
+    def _add(self, node: str, name: str) -> None:
+        types = self.structure.types[node]
+        if name not in types:
+            types[name] = None
+            self.structure.members.setdefault(name, {})[node] = None
+            self._news.append((node, name))
+            if name == NOTHING[0]:
+                self.clash = self.clash or node
+
+    def _link(self, role: str, subject: str, value: str) -> None:
+        new = [(role, subject, value)]
+        while new:
+            role, subject, value = new.pop()
+            self._node(subject)
+            self._node(value)
+            values = self.structure.out.setdefault(role, {}).setdefault(subject, {})
+            if value in values:
+                continue
+            self.steps += 1
+            values[value] = None
+            self.structure.into.setdefault(role, {}).setdefault(value, {})[subject] = None
+            for upper, inverse in self._uppers.get(role, ()):
+                new.append((upper, value, subject) if inverse else (upper, subject, value))
+            if role in self._transitive:
+                new += [(role, subject, end) for end in self.structure.values(role, value)]
+                new += [(role, start, value) for start in self.structure.values(("ObjectInverseOf", role), subject)]
+            for inverse, here, there in ((False, subject, value), (True, value, subject)):
+                for filler, name in self._fillers.get((role, inverse), ()):
+                    if filler in self.structure.types[there]:
+                        self._add(here, name)
+                key: Tree = ("ObjectInverseOf", role) if inverse else role
+                for filler in self._only.get((here, key), ()):
+                    self._derive(there, filler)
+
+    def _derive(self, node: str, expression: Tree) -> None:
         match expression:
             case str(name):
-                return name == THING[0] or name in self.types[node]
+                self._add(node, name)
+            case ("ObjectComplementOf", str(name)) if name in self.structure.types[node]:
+                self._add(node, NOTHING[0])
+            case ("ObjectIntersectionOf", *parts):
+                for part in parts:
+                    self._derive(node, part)
+            case ("ObjectSomeValuesFrom", role, filler):
+                self._wanted.append((node, role, filler))
+            case ("ObjectMinCardinality" | "ObjectExactCardinality", str(number), role, filler) if number != "0":
+                self._wanted.append((node, role, filler))
+            case ("ObjectHasValue", str(role), str(value)):
+                self._link(role, node, value)
+            case ("ObjectHasValue", ("ObjectInverseOf", str(role)), str(value)):
+                self._link(role, value, node)
+            case ("ObjectAllValuesFrom", role, filler):
+                known = self._only.setdefault((node, role), [])
+                if filler not in known:
+                    known.append(filler)
+                    for value in tuple(self.structure.values(role, node)):
+                        self._derive(value, filler)
+            case _:
+                pass  # Left to the check of the model.
+
+    def _holds(self, node: str, condition: Tree) -> bool:
+        match condition:
+            case str(name):
+                return name in self.structure.types[node]
             case ("ObjectIntersectionOf", *parts):
                 return all(self._holds(node, part) for part in parts)
-            case ("ObjectUnionOf", *parts):
+            case (_, *parts):
                 return any(self._holds(node, part) for part in parts)
-            case ("ObjectSomeValuesFrom", role, filler):
-                return any(self._holds(value, filler) for value in self._successors(role, node))
-            case ("ObjectHasValue", role, str(value)):
-                return value in self._successors(role, node)
             case _:
                 return False
 
-    def _derive(self, node: str, expression: Tree) -> bool:
-        match expression:
-            case str(name):
-                new = name not in self.types[node]
-                self.types[node].add(name)
-                return new
-            case ("ObjectIntersectionOf", *parts):
-                return any([self._derive(node, part) for part in parts])
-            case ("ObjectSomeValuesFrom", str(role), filler) if not self._holds(node, expression):
-                # An unnamed value; only one step away from a named individual, so that chaining ends.
-                if node.startswith("_:"):
-                    return False
-                unnamed = f"_:{len(self.types)}"
-                self._link(role, node, unnamed)
-                self._derive(unnamed, filler)
-                return True
-            case ("ObjectHasValue", str(role), str(value)):
-                return self._link(role, node, value)
-            case _:
-                return False
+    def _give(self, node: str, role: Tree, filler: Tree) -> None:
+        """Give a thing a value of a kind, unless it has one."""
+        values = tuple(self.structure.values(role, node))
+        if any(self._is(value, filler) for value in values):
+            return
+        if values and role in self.functional:
+            self._derive(values[0], filler)
+            return
+        root, depth = self._origin[node]
+        if depth >= DEPTH and self._shared is None:
+            self._put_off.append((node, role, filler))
+            return
+        key = (root, role, filler)
+        value = self._shared.get(key) if self._shared is not None else None
+        if value is None:
+            value = f"_:{len(self.structure.types)}"
+            self._node(value, root, depth + 1)
+            if self._shared is not None:
+                self._shared[key] = value
+        if isinstance(role, str):
+            self._link(role, node, value)
+        else:
+            self._link(str(role[1]), value, node)
+        self._derive(value, filler)
 
-    def step(self) -> bool:
-        """Apply every rule once everywhere; return whether anything new followed."""
-        new = False
-        for role, other, inverse in self.roles:
-            for name, subject, value in sorted(self.links):
-                if name == role:
-                    new = (self._link(other, value, subject) if inverse else self._link(other, subject, value)) or new
-        for node in list(self.types):
-            for left, right in self.rules:
-                if self._holds(node, left):
-                    new = self._derive(node, right) or new
-        return new
+    def _is(self, node: str, expression: Tree) -> bool:
+        try:
+            return self.structure.belongs(node, expression)
+        except ValueError:
+            return False
+
+    def run(self) -> None:
+        """Apply all rules until nothing new follows.
+
+        Raises:
+            StepsError: If there is no end to it.
+        """
+        while self._news or self._wanted:
+            # What follows for what is there comes before things that are made for want of a value.
+            while self._news:
+                self._pass_on(*self._news.popleft())
+            if self._wanted:
+                self._give(*self._wanted.popleft())
+            if self.steps > MOST_STEPS:
+                raise StepsError
+
+    def _pass_on(self, node: str, name: str) -> None:
+        for condition, right in self._rules.get(name, ()):
+            self.steps += 1
+            if self._holds(node, condition):
+                self._derive(node, right)
+        for back, named in self._some.get(name, ()):
+            for other in tuple(self.structure.values(back, node)):
+                self.steps += 1
+                self._add(other, named)
+
+    def share(self) -> bool:
+        """Let things without a name be the values of several others, and go on; return whether that was needed.
+
+        What follows from then on need not be right of others, but the structure can come to an end, and be a model.
+        """
+        if not self._put_off:
+            return False
+        self._shared = {}
+        self._wanted, self._put_off = self._put_off, deque()
+        self.run()
+        return True
+
+    def named(self) -> dict[str, frozenset[str]]:
+        """Return individual to classes, both as bracketed IRIs."""
+        return {
+            node: frozenset(name for name in types if name[0] == "<" and name != THING[0])
+            for node, types in self.structure.types.items()
+            if not node.startswith("_:")
+        }
+
+
+def _atoms(condition: Tree) -> dict[str, None]:
+    if isinstance(condition, str):
+        return {condition: None}
+    return {name: None for part in condition[1:] for name in _atoms(part)}
+
+
+def chain(axioms: Iterable[Axiom]) -> Chaining:
+    """Return what follows from the axioms step by step.
+
+    Raises:
+        StepsError: If there is no end to it.
+    """
+    chaining = Chaining(axioms)
+    chaining.run()
+    return chaining
+
+
+def clashing(chaining: Chaining) -> str | None:
+    """Return a thing of which chaining shows that it cannot be; if there is none, nothing is decided."""
+    if chaining.clash is not None:
+        return chaining.clash
+    structure = chaining.structure
+    for tree in chaining.axioms:
+        if isinstance(tree, tuple) and tree[0] == "DisjointClasses":
+            seen: set[str] = set()
+            for name in tree[1:]:
+                members = structure.members.get(name, {}) if isinstance(name, str) else {}
+                twice = next((node for node in members if node in seen), None)
+                if twice is not None:
+                    return twice
+                seen.update(members)
+    for role in sorted(chaining.functional):
+        for node, values in structure.out.get(role, {}).items():
+            if sum(not value.startswith("_:") for value in values) > 1:
+                return node
+    return None
 
 
 def clashes(axioms: Iterable[Axiom]) -> bool:
-    """Return whether chaining finds something that belongs to two disjoint classes; if not, nothing is decided."""
-    axioms = tuple(axioms)
-    chaining = Chaining(axioms)
-    while chaining.step():
-        pass
-    trees = [parse_axiom(axiom.text) for axiom in axioms if axiom.text.startswith("DisjointClasses")]
-    groups = [tree[1:] for tree in trees if isinstance(tree, tuple)]
-    return any(sum(c in types for c in classes) > 1 for classes in groups for types in chaining.types.values())
+    """Return whether chaining shows that the axioms contradict each other; if not, nothing is decided."""
+    return clashing(chain(axioms)) is not None
 
 
-def chain(axioms: Iterable[Axiom]) -> dict[str, set[str]]:
-    """Return individual to classes, both as bracketed IRIs, for all that follows by chaining."""
-    chaining = Chaining(axioms)
-    while chaining.step():
-        pass
-    return {node: types for node, types in chaining.types.items() if not node.startswith("_:")}
+def is_whole(chaining: Chaining) -> bool:
+    """Return whether a model shows that the axioms do not contradict each other, and nothing else follows from them.
+
+    After this nothing more may be read from ``chaining`` than what followed before.
+    """
+    follows = chaining.named()
+    try:
+        if chaining.share() and chaining.named() != follows:
+            return False
+    except StepsError:
+        return False
+    return chaining.structure.is_model_of(chaining.axioms)

@@ -62,8 +62,8 @@ class KnowledgeBase:
         """Refuse masses that contradict each other, and values out of the limits of a class."""
 
         def where(name: str, property_name: str = "mass") -> str:
-            places = [s.where for s in self.situation.statements if (s.subject, s.property) == (name, property_name)]
-            return places[0] if places else self.situation.places[name]
+            stated = self.situation.said.get((name, property_name))
+            return stated[0].where if stated else self.situation.places[name]
 
         masses_of(self).refuse(where)
         for name in self.individuals:
@@ -72,6 +72,12 @@ class KnowledgeBase:
                 if value is not None and not limit.admits(value):
                     allowed = f"must be {limit.bounds} for a {self.kind(name)}"
                     raise KnowledgeError(f"{where(name, limit.name)}: {name}: {limit.name} = {value:g}: {allowed}")
+
+    @property
+    def unchecked(self) -> str:
+        """Why it is not known whether it contradicts itself, and whether its individuals have more classes; empty if
+        that is known."""
+        return self.types.unchecked
 
     @property
     def individuals(self) -> tuple[str, ...]:
@@ -201,6 +207,7 @@ class KnowledgeBase:
             parts=tuple((w, p) for w in names for p in self.situation.parts.get(w, ())),
             values=tuple((n, p, k.value) for n in names for p, k in self.quantities(n).items()),
             relations=self.relations(),
+            unchecked=self.unchecked,
         )
 
     def class_names(self) -> tuple[str, ...]:
@@ -222,28 +229,23 @@ class KnowledgeBase:
     def find(self, name: str, property_name: str) -> Known | None:
         """Return the value of a property, or None if nothing is known of it."""
         entry = self.vocabulary.properties[property_name]
-        for s in self.situation.statements:
-            if s.subject == name and s.property == property_name:
-                origin = "override" if (name, property_name) in self.overrides else "asserted"
-                return Known(value=s.value, unit=entry.si_unit, origin=origin, source=s.where)
+        for s in self.situation.said.get((name, property_name), ())[:1]:
+            origin = "override" if (name, property_name) in self.overrides else "asserted"
+            return Known(value=s.value, unit=entry.si_unit, origin=origin, source=s.where)
         return derive(self, name, property_name) or self.default(name, property_name)
 
     def subjects(self, relation: str, name: str) -> tuple[str, ...]:
         """Return the individuals of which an asserted relation to ``name`` is told, sorted."""
-        statements = self.situation.statements
-        return tuple(sorted({s.subject for s in statements if s.property == relation and s.value == name}))
+        return self.situation.said_with.get((relation, name), ())
 
     def objects_of(self, relation: str, name: str) -> tuple[str, ...]:
         """Return the individuals to which ``name`` has an asserted relation, sorted."""
-        statements = self.situation.statements
-        return tuple(sorted({str(s.value) for s in statements if s.property == relation and s.subject == name}))
+        return tuple(sorted({str(s.value) for s in self.situation.said.get((name, relation), ())}))
 
     def stated(self, name: str, property_name: str) -> float | None:
         """Return the number that the situation states [SI], or None."""
-        for s in self.situation.statements:
-            if s.subject == name and s.property == property_name and isinstance(s.value, float):
-                return s.value
-        return None
+        stated = self.situation.said.get((name, property_name), ())
+        return next((s.value for s in stated if isinstance(s.value, float)), None)
 
     def number(self, name: str, property_name: str) -> float | None:
         """Return what is known as a number in SI units, the truth as 1, or None."""

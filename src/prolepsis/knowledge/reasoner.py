@@ -5,6 +5,10 @@ from __future__ import annotations
 import math
 import os
 import re
+import threading
+import time
+from collections.abc import Generator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from prolepsis.errors import KnowledgeError, UndecidedError
@@ -14,10 +18,17 @@ if TYPE_CHECKING:
     from pyhermit import Reasoner
 
 LIMIT_VARIABLE = "PROLEPSIS_REASONER_SECONDS"
-"""Environment variable: seconds that one consistency check may take."""
-
+"""Environment variable: seconds of the processor that one consistency check may take."""
 TIME_LIMIT = 10.0
 """The same when the variable is not set [s]. A check of the built-in ontology takes a few tenths."""
+CHECKS = 6
+"""All checks of one knowledge base together may take so many times as long."""
+LOOKING = 0.02
+"""So often is looked at how much was spent [s]."""
+CHARACTERS = 200_000
+"""A text with more characters for each allowed second is not even read."""
+MOST_SAID = 200
+"""Longest text of the reasoner that is passed on."""
 
 _DECLARATION = "Declaration("
 _IRI = re.compile(r"<[^<>]*>")
@@ -33,15 +44,15 @@ def ontology_text(axioms: tuple[Axiom, ...]) -> str:
     return "Ontology(\n" + "\n".join(texts) + "\n)\n"
 
 
-def _open(text: str, seconds: float) -> Reasoner:
-    """Return a reasoner over an ontology in functional syntax."""
-    from pyhermit import Reasoner, ReasonerConfig
-    from pyowl_core import DocumentFormat, LoadOptions, load_snapshot
+class Budget:
+    """What the reasoner may spend on one knowledge base, in seconds of the processor: not of the clock, so that the
+    answer does not depend on what else the machine does."""
 
-    return Reasoner(
-        load_snapshot(text.encode(), options=LoadOptions(format=DocumentFormat.FUNCTIONAL)),
-        config=ReasonerConfig(timeout=seconds),
-    )
+    def __init__(self) -> None:
+        self.each = time_limit()
+        """For one check [s]."""
+        self.left = CHECKS * self.each
+        """For all that are to come [s]."""
 
 
 def time_limit() -> float:
@@ -60,24 +71,57 @@ def time_limit() -> float:
     return seconds
 
 
-def is_consistent(axioms: tuple[Axiom, ...]) -> bool:
+@contextmanager
+def _interrupted_after(reasoner: Reasoner, budget: Budget) -> Generator[None]:
+    """Interrupt the reasoner when it has spent what it may."""
+    began, allowed, done = time.process_time(), min(budget.each, budget.left), threading.Event()
+
+    def watch() -> None:
+        while not done.wait(LOOKING):
+            if time.process_time() - began > allowed:
+                reasoner.interrupt()
+
+    watcher = threading.Thread(target=watch, daemon=True)
+    watcher.start()
+    try:
+        yield
+    finally:
+        done.set()
+        watcher.join()
+        budget.left -= time.process_time() - began
+
+
+def is_consistent(axioms: tuple[Axiom, ...], budget: Budget | None = None) -> bool:
     """Return whether the axioms have a model.
 
     Raises:
         UndecidedError: If the reasoner runs out of time.
         KnowledgeError: If the axioms are not OWL 2 DL.
     """
+    budget = budget or Budget()
+    undecided = UndecidedError(
+        f"the reasoner could not decide within {budget.each:g} s of the processor whether the knowledge base "
+        f"contradicts itself; allow more with the environment variable {LIMIT_VARIABLE}, or write the new axioms "
+        f"more simply"
+    )
+    text = ontology_text(axioms)
+    if budget.left <= 0.0 or len(text) > budget.each * CHARACTERS:
+        raise undecided
+    # Importing the reasoner takes longer than all the rest of loading a knowledge base.
+    from pyhermit import Reasoner
     from pyhermit.exceptions import PyHermiTError, ReasoningAbortedError
-    from pyowl_core import PyOWLCoreError
+    from pyowl_core import DocumentFormat, LoadOptions, PyOWLCoreError, load_snapshot
 
-    seconds = time_limit()
     try:
-        with _open(ontology_text(axioms), seconds) as reasoner:
+        snapshot = load_snapshot(text.encode(), options=LoadOptions(format=DocumentFormat.FUNCTIONAL))
+        with Reasoner(snapshot) as reasoner, _interrupted_after(reasoner, budget):
             return reasoner.is_consistent()
     except ReasoningAbortedError:
-        raise UndecidedError(
-            f"the reasoner could not decide within {seconds:g} s whether the knowledge base contradicts itself; "
-            f"allow more with the environment variable {LIMIT_VARIABLE}, or write the new axioms more simply"
-        ) from None
+        raise undecided from None
     except (PyHermiTError, PyOWLCoreError) as error:
-        raise KnowledgeError(f"the reasoner refuses the axioms: {' '.join(str(error).split())}") from error
+        raise KnowledgeError(f"the reasoner refuses the axioms: {_short(str(error))}") from error
+
+
+def _short(text: str) -> str:
+    line = " ".join(text.split())
+    return line if len(line) <= MOST_SAID else f"{line[: MOST_SAID - 3]}..."

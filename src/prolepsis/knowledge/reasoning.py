@@ -8,24 +8,26 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from importlib.metadata import version
 
 from rdflib import OWL, RDF
 
 from prolepsis.errors import InconsistentError, UndecidedError
+from prolepsis.knowledge.alike import alike, counts_along_chains
 from prolepsis.knowledge.axioms import Axiom, assertions, terminology
-from prolepsis.knowledge.chaining import chain, clashes
+from prolepsis.knowledge.chaining import MOST_STEPS, Chaining, StepsError, chain, clashes, clashing, is_whole
 from prolepsis.knowledge.conflict import smallest_conflict
 from prolepsis.knowledge.kept import keep_answer, read_answer
-from prolepsis.knowledge.reasoner import LIMIT_VARIABLE, is_consistent
+from prolepsis.knowledge.reasoner import LIMIT_VARIABLE, Budget, is_consistent
 from prolepsis.knowledge.situation import Situation
 from prolepsis.knowledge.turtle import Document
 from prolepsis.knowledge.vocabulary import Vocabulary
 
-INCONSISTENT = "inconsistent"
-EMPTY_CLASS = "empty class"
+Answer = list[int] | str
+"""What is kept of the reasoner: numbers of what follows, or one of these words."""
+INCONSISTENT, EMPTY, POSSIBLE = "inconsistent", "empty class", "no class is empty"
 _TOKEN = re.compile(r"<[^<>]*>")
 
 
@@ -62,17 +64,20 @@ class Types:
 
     classes: Mapping[str, tuple[str, ...]]
     """Individual to its named classes, sorted."""
-    parents: Mapping[str, tuple[str, ...]]
-    """Class to its named proper superclasses, sorted."""
+    vocabulary: Vocabulary
+    """The classes."""
+    unchecked: str = ""
+    """Why it is not known whether the knowledge base contradicts itself, and whether more follows; empty if it is."""
 
     def superclasses(self, name: str) -> tuple[str, ...]:
         """Return the named classes that are more general than ``name``."""
-        return self.parents.get(name, ())
+        return tuple(above for above in self.vocabulary.told_classes((name,)) if above != name)
 
     def kind(self, classes: tuple[str, ...], vocabulary: Vocabulary) -> str:
         """Return the most specific of ``classes`` that is not defined, or else the most specific one."""
         plain = [c for c in classes if not vocabulary.classes[c].defined] or list(classes)
-        lowest = [c for c in plain if not any(c in self.superclasses(o) for o in plain)]
+        higher = {c for o in plain for c in self.superclasses(o)}
+        lowest = [c for c in plain if c not in higher]
         return sorted(lowest or plain)[0]
 
 
@@ -87,125 +92,217 @@ def infer_types(documents: tuple[Document, ...], vocabulary: Vocabulary, situati
 
     Raises:
         InconsistentError: If the axioms contradict each other, or a class can have no individual.
-        UndecidedError: If the reasoner runs out of time. What it did not decide is never taken as answered.
     """
     terms, cells = terminology(documents, vocabulary)
     facts = assertions(situation, vocabulary, cells, terms)
-    told = {name: vocabulary.told_classes(classes) for name, classes in situation.classes.items()}
-    probes = tuple(
-        Probe(
-            situation.iris[name],
-            entry.iri,
-            frozenset(vocabulary.classes[c].iri for c in vocabulary.told_classes((class_name,))),
-        )
-        for name in representatives(situation, facts)
-        for class_name, entry in vocabulary.classes.items()
-        if class_name not in told[name]
-    )
     own = {str(iri) for d in documents if not d.built_in for iri in d.graph.subjects(RDF.type, OWL.Class)}
-    witnesses = tuple(
+    witnesses, budget, unchecked = _witnesses(vocabulary, own), Budget(), ""
+    inferred: Mapping[str, frozenset[str]] = {}
+    try:
+        try:
+            if witnesses and not can_be(terms, witnesses, budget):
+                raise InconsistentError(f"the knowledge base contradicts itself: {explain(terms + witnesses)}")
+        except UndecidedError as error:
+            unchecked = str(error)
+        try:
+            inferred = entailed_types(terms, facts, vocabulary, budget)
+        except UndecidedError as error:
+            unchecked, inferred = str(error), step_by_step(terms, facts)
+    except InconsistentError:
+        if check:
+            raise
+    names = {f"<{entry.iri}>": name for name, entry in vocabulary.classes.items()}
+    classes: dict[str, tuple[str, ...]] = {}
+    for name, told in situation.classes.items():
+        found = {names[c] for c in inferred.get(f"<{situation.iris[name]}>", ()) if c in names}
+        classes[name] = tuple(sorted({*vocabulary.told_classes(told), *found}))
+    return Types(classes=classes, vocabulary=vocabulary, unchecked=unchecked)
+
+
+def _witnesses(vocabulary: Vocabulary, own: set[str]) -> tuple[Axiom, ...]:
+    """Return that there is one of each of the user's own classes but those that have a subclass among them."""
+    above = {p for entry in vocabulary.classes.values() if entry.iri in own for p in entry.parents}
+    return tuple(
         Axiom(f"ClassAssertion(<{entry.iri}> <{entry.iri}/witness>)", f"there can be a {name}", "asked")
         for name, entry in vocabulary.classes.items()
-        if entry.iri in own
+        if entry.iri in own and name not in above
     )
-    entailed = kept_answer(terms, about(facts, situation, representatives(situation, facts)), witnesses, probes)
-    if isinstance(entailed, str):
-        if check:
-            axioms = terms + (facts if entailed == INCONSISTENT else witnesses)
-            raise InconsistentError(f"the knowledge base contradicts itself: {explain(axioms)}")
-        entailed = ()
-    inferred = {(probe.individual, probe.class_iri) for probe in entailed}
-    alike = representatives(situation, facts)
-    classes: dict[str, tuple[str, ...]] = {}
-    for name in situation.classes:
-        iri = situation.iris[next(r for r, members in alike.items() if name in members)]
-        found = {c for c, entry in vocabulary.classes.items() if (iri, entry.iri) in inferred}
-        classes[name] = tuple(sorted({*told[name], *found}))
-    parents = {c: tuple(p for p in vocabulary.told_classes((c,)) if p != c) for c in vocabulary.classes}
-    return Types(classes=classes, parents=parents)
 
 
-def representatives(situation: Situation, facts: tuple[Axiom, ...]) -> Mapping[str, tuple[str, ...]]:
-    """Return groups of individuals of which exactly the same is said, but nothing that relates them to others.
+def can_be(terms: tuple[Axiom, ...], witnesses: tuple[Axiom, ...], budget: Budget) -> bool:
+    """Return whether there can be an individual of each class.
 
-    The reasoner is asked about the first of each group only.
+    Raises:
+        UndecidedError: If the reasoner runs out of time.
     """
-    names = {f"<{iri}>": name for name, iri in situation.iris.items()}
-    said: dict[str, list[str]] = {name: [] for name in situation.classes}
-    related: set[str] = set()
-    for axiom in facts:
-        if axiom.text.startswith("DifferentIndividuals"):
+    chaining = _chained((*terms, *witnesses))
+    if chaining is not None:
+        if clashing(chaining) is not None:
+            return False
+        if not counts_along_chains(terms) and is_whole(chaining):
+            return True
+
+    def answer() -> Answer:
+        together = is_consistent((*terms, *witnesses), budget)
+        possible = together or all(is_consistent((*terms, witness), budget) for witness in witnesses)
+        return POSSIBLE if possible else EMPTY
+
+    return _kept((*terms, *witnesses), answer) == POSSIBLE
+
+
+def step_by_step(terms: tuple[Axiom, ...], facts: tuple[Axiom, ...]) -> Mapping[str, frozenset[str]]:
+    """Return individual to classes, both as bracketed IRIs, as far as chaining finds them."""
+    chaining = _chained((*terms, *facts))
+    return {} if chaining is None else chaining.named()
+
+
+def _chained(axioms: tuple[Axiom, ...]) -> Chaining | None:
+    try:
+        return chain(axioms)
+    except StepsError:
+        return None
+
+
+def entailed_types(
+    terms: tuple[Axiom, ...], facts: tuple[Axiom, ...], vocabulary: Vocabulary, budget: Budget
+) -> Mapping[str, frozenset[str]]:
+    """Return individual to the classes to which it must belong, both as bracketed IRIs.
+
+    Args:
+        terms: Axioms of classes and properties.
+        facts: Axioms of individuals.
+        vocabulary: The classes.
+        budget: What the reasoner may spend.
+
+    Forward chaining finds what follows step by step. Where what it found is a model, nothing else does. Elsewhere the
+    reasoner is asked, of those that are alike about one, and about those that are related together by themselves.
+
+    Raises:
+        InconsistentError: If the axioms contradict each other.
+        UndecidedError: If the reasoner runs out of time.
+    """
+    chaining = _chained((*terms, *facts))
+    if chaining is None:
+        raise UndecidedError(f"forward chaining did not end within {MOST_STEPS} steps")
+    node = clashing(chaining)
+    if node is not None:
+        raise InconsistentError(
+            f"the knowledge base contradicts itself: {explain((*terms, *_around(node, terms, facts)))}"
+        )
+    found = chaining.named()
+    if not counts_along_chains(terms) and is_whole(chaining):
+        return found
+    groups = alike(facts, terms)
+    above = {
+        entry.iri: frozenset(vocabulary.classes[c].iri for c in vocabulary.told_classes((name,)))
+        for name, entry in vocabulary.classes.items()
+    }
+    for members in groups.components:
+        here = _about(facts, members)
+        part = _chained((*terms, *here))
+        if part is not None and not counts_along_chains(terms) and is_whole(part):
             continue
-        mentioned = [names[token] for token in _TOKEN.findall(axiom.text) if token in names]
-        if len(mentioned) > 1:
-            related.update(mentioned)
-        for name in mentioned:
-            said[name].append(axiom.text.replace(f"<{situation.iris[name]}>", "<it>"))
-    groups: dict[str, list[str]] = {}
-    for name in situation.classes:
-        key = name if name in related else "\n".join(sorted(said[name]))
-        groups.setdefault(key, []).append(name)
-    return {members[0]: tuple(members) for members in groups.values()}
+        probes = tuple(
+            Probe(member[1:-1], iri, higher)
+            for member in members
+            for iri, higher in above.items()
+            if f"<{iri}>" not in found[member]
+        )
+        answer = _kept_probes(terms, here, members, probes, budget)
+        if answer is None:
+            raise InconsistentError(f"the knowledge base contradicts itself: {explain((*terms, *here))}")
+        for probe in answer:
+            found[f"<{probe.individual}>"] |= {f"<{probe.class_iri}>"}
+    return {name: found[groups.stands_for[name]] for name in groups.stands_for}
 
 
-def about(facts: tuple[Axiom, ...], situation: Situation, alike: Mapping[str, tuple[str, ...]]) -> tuple[Axiom, ...]:
-    """Return the facts without the individuals that another one stands for."""
-    left_out = {f"<{situation.iris[name]}>" for members in alike.values() for name in members[1:]}
-    kept = [
-        a for a in facts if not a.text.startswith("DifferentIndividuals") and not left_out & set(_TOKEN.findall(a.text))
-    ]
-    names = [f"<{situation.iris[name]}>" for name in alike]
-    different = [Axiom(f"DifferentIndividuals({' '.join(names)})")] if len(names) > 1 else []
-    return (*kept, *different)
+def _around(node: str, terms: tuple[Axiom, ...], facts: tuple[Axiom, ...]) -> tuple[Axiom, ...]:
+    """Return facts about a thing that clashes and those around it, as few as show it."""
+    members, size = {node}, 0
+    mentions = {axiom: frozenset(_TOKEN.findall(axiom.text)) for axiom in facts}
+    people = {token for axiom in facts if axiom.text.startswith("Different") for token in mentions[axiom]}
+    members &= people
+    while len(members) > size:
+        here = _about(facts, tuple(sorted(members)))
+        if here and clashes((*terms, *here)):
+            return here
+        size = len(members)
+        related = [m & people for a, m in mentions.items() if a.text.startswith("ObjectProp") and m & members]
+        members |= set[str]().union(*related)
+    return facts
 
 
-def kept_answer(
-    terms: tuple[Axiom, ...], facts: tuple[Axiom, ...], witnesses: tuple[Axiom, ...], probes: tuple[Probe, ...]
-) -> tuple[Probe, ...] | str:
-    """Return the probes that follow from the axioms, or ``INCONSISTENT`` or ``EMPTY_CLASS``.
+def _about(facts: tuple[Axiom, ...], members: tuple[str, ...]) -> tuple[Axiom, ...]:
+    """Return what is said of some individuals alone."""
+    people = {t for a in facts if a.text.startswith("Different") for t in _TOKEN.findall(a.text)}
+    others = people - {*members}
+    kept = [a for a in facts if a.text[:9] != "Different" and others.isdisjoint(_TOKEN.findall(a.text))]
+    different = [Axiom(f"DifferentIndividuals({' '.join(members)})", "two names are two things")]
+    return (*kept, *(different if len(members) > 1 else []))
 
-    The answer is read from the cache if it is there.
+
+def _kept_probes(
+    terms: tuple[Axiom, ...],
+    facts: tuple[Axiom, ...],
+    members: tuple[str, ...],
+    probes: tuple[Probe, ...],
+    budget: Budget,
+) -> tuple[Probe, ...] | None:
+    """Return the probes that follow from the axioms, or None if these contradict each other.
+
+    An answer is kept under what is said of the individuals, whatever they are called.
     """
-    asked = "\n".join(a.text for a in (*terms, *facts, *witnesses, *denials(probes)))
-    key = hashlib.sha256(f"1 pyhermit {version('pyhermit')}\n{asked}".encode()).hexdigest()
+    names = {member: f"<urn:{k}>" for k, member in enumerate(members)}
+
+    def renamed(axiom: Axiom) -> Axiom:
+        return Axiom(_TOKEN.sub(lambda token: names.get(token.group(), token.group()), axiom.text))
+
+    asked = tuple(sorted(renamed(axiom) for axiom in facts))
+    questions = tuple(replace(probe, individual=names[f"<{probe.individual}>"][1:-1]) for probe in probes)
+
+    def answer() -> list[int] | str:
+        found = entailed_probes(terms, asked, questions, budget)
+        return INCONSISTENT if found is None else [questions.index(probe) for probe in found]
+
+    kept = _kept((*terms, *asked, *denials(questions)), answer)
+    return None if isinstance(kept, str) else tuple(probes[k] for k in kept)
+
+
+def _kept(axioms: tuple[Axiom, ...], answer: Callable[[], Answer]) -> Answer:
+    """Return an answer about axioms, read from the cache if it is there."""
+    asked = "\n".join(axiom.text for axiom in axioms)
+    key = hashlib.sha256(f"2 pyhermit {version('pyhermit')}\n{asked}".encode()).hexdigest()
     kept = read_answer(key)
-    if kept is not None:
-        return kept if isinstance(kept, str) else tuple(probes[i] for i in kept)
-    answer = entailed_probes(terms, facts, witnesses, probes)
-    keep_answer(key, answer if isinstance(answer, str) else [probes.index(probe) for probe in answer])
-    return answer
+    if kept is None:
+        kept = answer()
+        keep_answer(key, kept)
+    return kept
 
 
 def entailed_probes(
-    terms: tuple[Axiom, ...], facts: tuple[Axiom, ...], witnesses: tuple[Axiom, ...], probes: tuple[Probe, ...]
-) -> tuple[Probe, ...] | str:
-    """Return the probes that follow, or ``INCONSISTENT`` or ``EMPTY_CLASS``.
+    terms: tuple[Axiom, ...], facts: tuple[Axiom, ...], probes: tuple[Probe, ...], budget: Budget
+) -> tuple[Probe, ...] | None:
+    """Return the probes that follow, or None if the axioms contradict each other.
 
-    Forward chaining finds what follows step by step. One consistency check then certifies that nothing else
-    does: all other probes can be denied together, and every class can have an individual. If it fails, the
-    reasoner looks for what else follows by denying halves. (pyhermit 0.2.3 answers such a check in
-    milliseconds, but its own realization does not end on this ontology.)
+    One consistency check certifies that none does: all can be denied together. If it fails, the reasoner looks for
+    what follows by denying halves. (pyhermit 0.2.3 answers such a check in milliseconds, but its own realization
+    does not end on this ontology.)
     """
     axioms = terms + facts
-    found = chain(axioms)
-    follows = tuple(probe for probe in probes if f"<{probe.class_iri}>" in found.get(f"<{probe.individual}>", ()))
-    others = tuple(probe for probe in probes if probe not in follows)
-    if any(not is_consistent((*terms, witness)) for witness in witnesses):
-        return EMPTY_CLASS
-    if is_consistent((*axioms, *denials(others))):
-        return follows
-    if not is_consistent(axioms):
-        return INCONSISTENT
+    if is_consistent((*axioms, *denials(probes)), budget):
+        return ()
+    if not is_consistent(axioms, budget):
+        return None
 
     def search(part: tuple[Probe, ...]) -> tuple[Probe, ...]:
-        if not part or is_consistent((*axioms, *denials(part))):
+        if not part or is_consistent((*axioms, *denials(part)), budget):
             return ()
         if len(part) == 1:
             return part
         half = len(part) // 2
         return search(part[:half]) + search(part[half:])
 
-    return follows + search(others)
+    return search(probes)
 
 
 def explain(axioms: tuple[Axiom, ...]) -> str:
@@ -214,8 +311,9 @@ def explain(axioms: tuple[Axiom, ...]) -> str:
     if clashes(axioms):
         # Chaining is a hundred times quicker than the reasoner, and leaves it only a few axioms.
         doubted = smallest_conflict(background, doubted, lambda some: not clashes(some))
+    budget = Budget()
     try:
-        conflict = smallest_conflict(background, doubted, is_consistent)
+        conflict = smallest_conflict(background, doubted, lambda some: is_consistent(some, budget))
     except UndecidedError:
         return f"which axioms clash was not found in time; allow more with the environment variable {LIMIT_VARIABLE}"
     if not conflict:

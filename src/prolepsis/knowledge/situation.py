@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from rdflib import OWL, RDF, RDFS, BNode, URIRef
 
@@ -47,14 +47,27 @@ class Situation:
     """File and line where each individual is introduced."""
     wholes: Mapping[str, str]
     """Part to whole."""
+    parts: Mapping[str, tuple[str, ...]] = field(init=False, repr=False)
+    """Whole to its direct parts, sorted."""
+    said: Mapping[tuple[str, str], tuple[Statement, ...]] = field(init=False, repr=False)
+    """Individual and property to the statements with them, in order."""
+    said_with: Mapping[tuple[str, str], tuple[str, ...]] = field(init=False, repr=False)
+    """Relation and its object to its subjects, sorted."""
 
-    @property
-    def parts(self) -> Mapping[str, tuple[str, ...]]:
-        """Whole to its direct parts, sorted."""
-        found: dict[str, list[str]] = {}
+    def __post_init__(self) -> None:
+        """Index what is said: it is looked up as often as there are individuals."""
+        parts: dict[str, list[str]] = {}
         for part, whole in sorted(self.wholes.items()):
-            found.setdefault(whole, []).append(part)
-        return {whole: tuple(parts) for whole, parts in found.items()}
+            parts.setdefault(whole, []).append(part)
+        said: dict[tuple[str, str], list[Statement]] = {}
+        subjects: dict[tuple[str, str], set[str]] = {}
+        for s in self.statements:
+            said.setdefault((s.subject, s.property), []).append(s)
+            if isinstance(s.value, str):
+                subjects.setdefault((s.property, s.value), set()).add(s.subject)
+        object.__setattr__(self, "parts", {whole: tuple(names) for whole, names in parts.items()})
+        object.__setattr__(self, "said", {key: tuple(statements) for key, statements in said.items()})
+        object.__setattr__(self, "said_with", {key: tuple(sorted(names)) for key, names in subjects.items()})
 
 
 def read_situation(documents: tuple[Document, ...], vocabulary: Vocabulary) -> Situation:
@@ -203,7 +216,11 @@ def _with_default_parts(situation: Situation, vocabulary: Vocabulary) -> Situati
     for whole, told in situation.classes.items():
         stated = {c for part in situation.parts.get(whole, ()) for c in vocabulary.told_classes(classes[part])}
         # The most specific class comes first: a quail's egg has a quail's shell, so no hen's one by default.
-        for name in sorted(vocabulary.told_classes(told), key=lambda each: -len(vocabulary.told_classes((each,)))):
+        above = vocabulary.told_classes(told)
+        for name in sorted(
+            (each for each in above if vocabulary.classes[each].parts),
+            key=lambda each: -len(vocabulary.told_classes((each,))),
+        ):
             missing = [part for part in vocabulary.classes[name].parts if part.unless not in stated]
             stated |= {c for part in missing for c in vocabulary.told_classes((part.kind,))}
             for part in missing:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from prolepsis.units import si_symbol, to_si, unit_of
 
@@ -163,9 +163,18 @@ class Vocabulary:
     """By name, sorted."""
     properties: Mapping[str, Property]
     """By name, sorted."""
+    _told: dict[tuple[str, ...], tuple[str, ...]] = field(
+        default_factory=dict[tuple[str, ...], tuple[str, ...]], init=False, repr=False, compare=False
+    )
+    """What was asked of the classes already: many individuals are told to be of the same."""
 
     def told_classes(self, names: tuple[str, ...]) -> tuple[str, ...]:
         """Return ``names`` and all their told superclasses, sorted."""
+        if names not in self._told:
+            self._told[names] = self._told_classes(names)
+        return self._told[names]
+
+    def _told_classes(self, names: tuple[str, ...]) -> tuple[str, ...]:
         found: set[str] = set()
         queue = list(names)
         while queue:
