@@ -14,8 +14,13 @@ from prolepsis.errors import ScenarioError
 
 _STRICT = ConfigDict(extra="forbid")
 _NAME = re.compile(r"[a-z]\w*", re.ASCII)
-_Number = Annotated[float, Field(allow_inf_nan=False)]
-_Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
+_Number = Annotated[float, Field(ge=-1.0e4, le=1.0e4)]
+"""A coordinate or a direction [m, rad or 1]."""
+_Near = Annotated[float, Field(ge=-10.0, le=10.0)]
+"""A place seen from the palm [m]."""
+_Positive = Annotated[float, Field(gt=0.0, le=1.0e9)]
+_Name = Annotated[str, Field(max_length=200)]
+_Names = Annotated[tuple[_Name, ...], Field(max_length=100)]
 _Vector = tuple[_Number, _Number, _Number]
 
 
@@ -23,17 +28,17 @@ _Vector = tuple[_Number, _Number, _Number]
 class OwnGripper:
     """Two fingers, and the arm that carries them. What is None is taken from the model."""
 
-    palm: str
+    palm: _Name
     """Body that carries the fingers."""
-    fingers: tuple[str, str]
+    fingers: tuple[_Name, _Name]
     """Their two joints."""
-    tool: _Vector
+    tool: tuple[_Near, _Near, _Near]
     """Where objects are held: between the pads, in the palm's frame [m]."""
     forward: _Vector = (1.0, 0.0, 0.0)
     """Direction from the palm to the fingertips, in the palm's frame."""
-    pads: tuple[str, str] | None = None
+    pads: tuple[_Name, _Name] | None = None
     """Bodies that carry the pads; the bodies of the fingers' joints if None."""
-    joints: tuple[str, ...] | None = None
+    joints: _Names | None = None
     """The arm's joints from the trunk outwards; all on the way from the root to the palm if None."""
     home: tuple[_Number, ...] | None = None
     """Coordinates of these joints at the start [rad or m]."""
@@ -51,15 +56,15 @@ class OwnRobot:
 
     file: str
     """The model, MJCF or URDF."""
-    name: str = "robot1"
+    name: Annotated[str, Field(max_length=60)] = "robot1"
     """Name of the robot in the situation."""
-    grippers: Annotated[Mapping[str, OwnGripper], Field(min_length=1)]
+    grippers: Annotated[Mapping[str, OwnGripper], Field(min_length=1, max_length=16)]
     """By the name that plans and facts give them."""
-    base: tuple[str, ...] = ()
+    base: _Names = ()
     """Joints that drive it over the floor: along x, along y, about z."""
-    torso: tuple[str, ...] = ()
+    torso: _Names = ()
     """Joints between base and arms that hold still, as do all that are not named."""
-    head: tuple[str, ...] = ()
+    head: _Names = ()
     """Pan and tilt."""
 
     def statements(self, where: Path) -> str:

@@ -3,6 +3,7 @@ seen, gravity is compensated, its parts do not touch each other."""
 
 from __future__ import annotations
 
+import re
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,16 +14,20 @@ import numpy as np
 
 from prolepsis.engine import mujoco
 from prolepsis.errors import ScenarioError
+from prolepsis.robots.model_text import inside, is_regular, read_model_tree, short, speed_limit
 
 ROOT = "mount"
 """Body that is added if none carries all others."""
 OWN, OTHERS = 2, 1
 """Contact bits of a robot: its geoms touch everything but each other, since neighbouring links overlap in many models.
 A world lets its arms touch."""
+_NAME = re.compile(r"[\w-]+")
 MESHES = (".msh", ".obj", ".stl")
 """Files that MuJoCo reads."""
-SHOWN_MESHES = 5
-"""So many missing files are named in a message."""
+SHOWN_MESHES, MOST_OF_A_NAME = 2, 60
+"""So many missing files are named in a message, each with so many characters."""
+MOST_BYTES_OF_MESHES = 256 * 2**20
+"""Meshes that touch something, together [byte]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -45,10 +50,10 @@ def read_model_file(path: Path) -> ModelFile:
     Raises:
         ScenarioError: If it cannot be read, its meshes are missing, or it is built in a way that is not supported.
     """
-    if not path.is_file():
-        raise ScenarioError(f"{path}: there is no such robot file")
+    tree = read_model_tree(path)
+    speeds = _speeds(tree, path)
     try:
-        spec: Any = mujoco.MjSpec.from_file(str(path))
+        spec: Any = mujoco.MjSpec.from_string(ElementTree.tostring(tree, encoding="unicode"))
     except (ValueError, OSError) as error:
         raise ScenarioError(f"{path}: the robot cannot be read: {_line(error)}") from None
     # A URDF's links without joints would be melted into their parents, and their names with them.
@@ -70,47 +75,54 @@ def read_model_file(path: Path) -> ModelFile:
         if joint.name in efforts:
             joint.actfrcrange = [-efforts[joint.name], efforts[joint.name]]
     spec.compile()
-    return ModelFile(spec=_on_one_body(spec), speeds=_speeds(path), efforts=efforts, home=home)
+    return ModelFile(spec=_on_one_body(spec), speeds=speeds, efforts=efforts, home=home)
 
 
 def _find_meshes(spec: Any, path: Path) -> None:
     """Give each mesh the path at which its file is.
 
     Raises:
-        ScenarioError: If some are nowhere.
+        ScenarioError: If some are nowhere, or too large.
     """
     missing: list[str] = []
+    size = 0
     for mesh in spec.meshes:
         if not mesh.file:
             continue
         if Path(mesh.file).suffix.lower() not in MESHES:
-            raise ScenarioError(f"{path}: the mesh {mesh.file} cannot be read; allowed: {', '.join(MESHES)}")
+            raise ScenarioError(f"{path}: the mesh {short(mesh.file)} cannot be read; allowed: {', '.join(MESHES)}")
         found = _place_of(str(mesh.file), path, str(spec.meshdir))
         if found is None:
-            missing.append(str(mesh.file))
-        else:
-            mesh.file = str(found)
+            missing.append(short(mesh.file)[:MOST_OF_A_NAME])
+            continue
+        size += found.stat().st_size
+        if size > MOST_BYTES_OF_MESHES:
+            raise ScenarioError(f"{path}: its meshes are larger than {MOST_BYTES_OF_MESHES / 2**20:g} MiB together")
+        mesh.file = str(found)
     if missing:
         more = f" and {len(missing) - SHOWN_MESHES} more" if len(missing) > SHOWN_MESHES else ""
         shown = ", ".join(missing[:SHOWN_MESHES])
         raise ScenarioError(
             f"{path}: meshes are missing: {shown}{more}; looked for beside the file, in its mesh folder, and for "
-            f"package:// in the folders above it"
+            f"package:// in the folders above it, links followed, nowhere else"
         )
 
 
 def _place_of(file: str, path: Path, folder: str) -> Path | None:
     """Return where a mesh is: beside the robot's file, in its mesh folder, or in a package somewhere above it."""
-    here = path.absolute().parent
+    here = path.resolve().parent
     if not file.startswith("package://"):
         name = file.removeprefix("file://")
-        places = [here / folder / name, here / name]
+        # A robot's description often has a folder of models and one of meshes, and a package.xml above both.
+        home = next((each for each in here.parents if (each / "package.xml").is_file()), here)
+        places = [inside(home, here / folder / name), inside(home, here / name)]
     else:
         package, _, name = file.removeprefix("package://").partition("/")
         above = [here, *here.parents]
-        places = [each / package / name for each in above]
-        places += [each / name for each in above if each.name == package or (each / "package.xml").is_file()]
-    return next((place for place in places if place.is_file()), None)
+        places = [inside(each / package, Path(name)) for each in above] if _NAME.fullmatch(package) else []
+        homes = [each for each in above if each.name == package or (each / "package.xml").is_file()]
+        places += [inside(each, Path(name)) for each in homes]
+    return next((place for place in places if place is not None and is_regular(place)), None)
 
 
 def _refuse_joints(model: Any, path: Path) -> None:
@@ -146,18 +158,11 @@ def _home(model: Any) -> dict[str, float]:
     return {}
 
 
-def _speeds(path: Path) -> dict[str, float]:
+def _speeds(tree: ElementTree.Element, path: Path) -> dict[str, float]:
     """Return the speed limits in a URDF, which MuJoCo does not read."""
-    root = ElementTree.parse(path).getroot()
-    if root.tag != "robot":
-        return {}
-    speeds: dict[str, float] = {}
-    for joint in root.findall("joint"):
-        limit = joint.find("limit")
-        speed = float(limit.get("velocity", "0")) if limit is not None else 0.0
-        if speed > 0.0:
-            speeds[joint.get("name", "")] = speed
-    return speeds
+    joints = tree.findall("joint") if tree.tag == "robot" else ()
+    found = {joint.get("name", ""): speed_limit(joint, path) for joint in joints}
+    return {name: speed for name, speed in found.items() if speed is not None}
 
 
 def _drop_what_is_only_seen(spec: Any, path: Path) -> None:
@@ -208,4 +213,4 @@ def _on_one_body(spec: Any) -> Any:
 
 
 def _line(error: Exception) -> str:
-    return " ".join(str(error).split()).removeprefix("Error: ")
+    return short(" ".join(str(error).split()).removeprefix("Error: "))

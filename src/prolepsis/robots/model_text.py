@@ -1,0 +1,312 @@
+"""A robot's file as a tree that MuJoCo may see: read without entities, of known elements only, every number bounded.
+
+The file may come from a stranger. What is not listed here is refused, or left out where it only says how things look or
+what is sensed; MuJoCo never reads the file itself, only what is written anew from this tree.
+"""
+
+from __future__ import annotations
+
+import math
+import stat
+from collections.abc import Iterator
+from pathlib import Path
+from xml.etree.ElementTree import Element, TreeBuilder
+from xml.parsers import expat
+
+from prolepsis.errors import ScenarioError
+
+MOST_BYTES = 16 * 2**20
+"""Longest robot file, what it includes counted too [byte]."""
+MOST_ELEMENTS = 20_000
+"""Elements of a robot after its replications; a PR2 has some 300."""
+DEEPEST = 200
+"""Elements within elements."""
+GREATEST = 1e18
+"""Greatest number: its powers are still finite. Limits of joints without one are written as 1e16."""
+LARGEST = 1_000_000
+"""Greatest entry of ``<size>``."""
+MOST_SAID = 160
+"""Characters of a foreign text that a message repeats at most."""
+
+_SHARED = {"joint", "geom", "site", "mesh", "tendon", "equality", "pair", "material"}
+_MOTORS = {
+    *("general", "motor", "position", "velocity", "intvelocity", "damper", "cylinder", "muscle", "adhesion", "dcmotor"),
+    "orientation",
+}
+_WITHIN = {"body", "frame", "replicate", "inertial", "joint", "freejoint", "geom", "site"}
+_HOLDS = {
+    "mujoco": {
+        *("compiler", "default", "asset", "worldbody", "actuator", "tendon", "equality", "contact", "keyframe"),
+        "include",
+    },
+    "compiler": {"lengthrange"},
+    "default": {"default", *_SHARED, *_MOTORS},
+    "asset": {"mesh", "material"},
+    "worldbody": _WITHIN,
+    "body": _WITHIN,
+    "frame": _WITHIN,
+    "replicate": _WITHIN,
+    "actuator": _MOTORS,
+    "tendon": {"fixed", "spatial"},
+    "fixed": {"joint"},
+    "spatial": {"site", "geom", "pulley"},
+    "equality": {"connect", "weld", "joint", "tendon"},
+    "contact": {"pair", "exclude"},
+    "keyframe": {"key"},
+}
+"""Elements of an MJCF, and what each may hold; an ``include`` may stand anywhere."""
+_LEFT_OUT = {
+    *("option", "size", "statistic", "visual", "custom", "sensor", "camera", "light", "texture", "skin", "layer"),
+    "deformable",
+}
+"""What a robot does not need: how it looks, what it senses, how it was once simulated."""
+_URDF = {
+    *("robot", "link", "joint", "inertial", "origin", "mass", "inertia", "visual", "collision", "geometry", "box"),
+    *("sphere", "cylinder", "capsule", "mesh", "material", "color", "parent", "child", "axis", "limit", "dynamics"),
+    *("mimic", "mujoco", "compiler"),
+}
+"""Elements of a URDF that are passed on; all else in one is for other programs."""
+_OF_MOTORS = {
+    *(
+        "name",
+        "class",
+        "joint",
+        "jointinparent",
+        "tendon",
+        "site",
+        "refsite",
+        "body",
+        "slidersite",
+        "cranksite",
+        "gear",
+    ),
+    *("forcerange", "forcelimited", "ctrlrange", "ctrllimited", "cranklength"),
+}
+"""Of a motor only its effort is read."""
+_OF_MESHES = {
+    *("name", "class", "file", "filename", "scale", "refpos", "refquat", "vertex", "normal", "texcoord", "face"),
+    *("inertia", "maxhullvert", "smoothnormal"),
+}
+_NAMES = {
+    *("name", "class", "childclass", "joint", "joint1", "joint2", "jointinparent", "body", "body1", "body2", "site"),
+    *("site1", "site2", "refsite", "sidesite", "slidersite", "cranksite", "geom", "geom1", "geom2", "mesh", "material"),
+    *("tendon", "tendon1", "tendon2", "file", "filename", "model", "link", "target", "meshdir", "assetdir"),
+    *("texturedir", "sep", "prefix"),
+}
+"""Attributes that are names, so that ``inf`` may be one."""
+
+
+def read_model_tree(path: Path) -> Element:
+    """Return the robot in an MJCF or URDF file, its includes in their places.
+
+    Raises:
+        ScenarioError: If it cannot be read, is too large, or holds something that is not allowed.
+    """
+    folder = path.resolve().parent
+    root = _parse(path, _bytes(path, path, MOST_BYTES), path)
+    if root.tag == "robot":
+        _only(root, _URDF)
+    elif root.tag == "mujoco":
+        _include(root, path, folder, [path.resolve()], [path.stat().st_size])
+        _refuse_sizes(root, path)
+        _keep_listed(root, path)
+    else:
+        raise ScenarioError(f"{path}: the robot cannot be read: it is a <{short(root.tag)}>; allowed: mujoco, robot")
+    _refuse_deep(root, path)
+    count = _count(root, path)
+    if count > MOST_ELEMENTS:
+        raise ScenarioError(f"{path}: the robot has {count:.6g} elements; allowed: {MOST_ELEMENTS}")
+    for each in root.iter():
+        _refuse_numbers(each, path)
+    return root
+
+
+def _refuse_deep(root: Element, path: Path) -> None:
+    """Refuse elements that are too deep within others once all is included."""
+    layer = [root]
+    for _ in range(DEEPEST):
+        layer = [child for each in layer for child in each]
+    if layer:
+        raise ScenarioError(f"{path}: the robot has elements within more than {DEEPEST} others")
+
+
+def short(text: str) -> str:
+    """Return a foreign text on one line that is not long."""
+    line = " ".join(text.split())
+    return line if len(line) <= MOST_SAID else f"{line[: MOST_SAID - 3]}..."
+
+
+def is_regular(path: Path) -> bool:
+    """Return whether a path leads to a file, not to a device, a pipe or a folder."""
+    try:
+        return stat.S_ISREG(path.stat().st_mode)
+    except (OSError, ValueError):
+        return False
+
+
+def _bytes(file: Path, path: Path, most: int) -> bytes:
+    if not is_regular(file):
+        raise ScenarioError(f"{path}: there is no such robot file{'' if file == path else f': {short(file.name)}'}")
+    try:
+        with file.open("rb") as opened:
+            content = opened.read(most + 1)
+    except OSError as error:
+        raise ScenarioError(f"{path}: the robot cannot be read: {error.strerror}") from None
+    if len(content) > most:
+        raise ScenarioError(f"{path}: the robot file is longer than {MOST_BYTES / 2**20:g} MiB, includes counted")
+    return content
+
+
+def _parse(file: Path, content: bytes, path: Path) -> Element:
+    """Return the tree of an XML text that declares no types and no entities."""
+    builder, parser = TreeBuilder(), expat.ParserCreate()
+    depth = count = 0
+
+    def start(name: str, attributes: dict[str, str]) -> None:
+        nonlocal depth, count
+        depth, count = depth + 1, count + 1
+        if depth > DEEPEST or count > MOST_ELEMENTS:
+            raise ScenarioError(
+                f"{path}: the robot has too many elements; allowed: {MOST_ELEMENTS}, {DEEPEST} within each other"
+            )
+        builder.start(name, attributes)
+
+    def end(name: str) -> None:
+        nonlocal depth
+        depth -= 1
+        builder.end(name)
+
+    def refuse(*_: object) -> None:
+        raise ScenarioError(f"{path}: the robot cannot be read: a document type (<!DOCTYPE ...>) is not allowed")
+
+    parser.StartElementHandler, parser.EndElementHandler = start, end
+    parser.StartDoctypeDeclHandler = parser.EntityDeclHandler = refuse
+    try:
+        parser.Parse(content, True)
+        return builder.close()
+    except (expat.ExpatError, ValueError, LookupError) as error:
+        raise ScenarioError(
+            f"{path}: the robot cannot be read: XML of {short(file.name)}: {short(str(error))}"
+        ) from None
+
+
+def _include(root: Element, path: Path, folder: Path, seen: list[Path], read: list[int]) -> None:
+    """Put what is included in the place of each include, each file once, none from outside the robot's folder."""
+    for parent in list(root.iter()):
+        for place, child in reversed(list(enumerate(parent))):
+            if child.tag != "include":
+                continue
+            named = child.get("file", "")
+            file = inside(folder, Path(named))
+            if file is None:
+                raise ScenarioError(
+                    f"{path}: include {short(named)}: is not in the robot's folder; allowed: files there"
+                )
+            if file in seen:
+                raise ScenarioError(f"{path}: include {short(named)}: is included twice, or includes itself")
+            seen.append(file)
+            content = _bytes(file, path, MOST_BYTES - sum(read))
+            read.append(len(content))
+            included = _parse(file, content, path)
+            _include(included, path, folder, seen, read)
+            parent[place : place + 1] = list(included)
+
+
+def inside(folder: Path, file: Path) -> Path | None:
+    """Return where a file is, links followed, if that is within a folder."""
+    try:
+        found = (folder / file).resolve()
+    except (OSError, ValueError, RuntimeError):
+        return None
+    return found if found.is_relative_to(folder) else None
+
+
+def _refuse_sizes(root: Element, path: Path) -> None:
+    for size in root.iter("size"):
+        for name, value in size.attrib.items():
+            number = _number(value.strip().rstrip("kKmMgGtTpPeE"))
+            unit = "kmgtpe".find(value.strip()[-1:].lower()) + 1 if value.strip() else 0
+            if number is None or not number * 1024.0**unit <= (2.0**30 if name == "memory" else LARGEST):
+                raise ScenarioError(
+                    f"{path}: size: {short(name)}={short(value)}; allowed: up to {LARGEST}, and 1G of memory"
+                )
+
+
+def _keep_listed(root: Element, path: Path) -> None:
+    """Leave out what a robot does not need, and refuse what is not known."""
+    for parent in root.iter():
+        for child in list(parent):
+            if child.tag in _LEFT_OUT:
+                parent.remove(child)
+            elif child.tag not in _HOLDS.get(parent.tag, ()):
+                allowed = ", ".join(sorted(_HOLDS.get(parent.tag, {"nothing"})))
+                raise ScenarioError(f"{path}: {parent.tag} holds a {short(child.tag)[:40]}; allowed: {allowed}")
+        wanted = _OF_MOTORS if parent.tag in _MOTORS else None
+        if parent.tag == "material":
+            wanted = {"name", "class", "rgba"}
+        if wanted is not None:
+            parent.attrib = {name: value for name, value in parent.attrib.items() if name in wanted}
+        if parent.tag == "mesh" and not parent.attrib.keys() <= _OF_MESHES:
+            unknown = short(min(parent.attrib.keys() - _OF_MESHES))
+            raise ScenarioError(f"{path}: mesh has {unknown}; allowed: {', '.join(sorted(_OF_MESHES))}")
+
+
+def _only(root: Element, allowed: set[str]) -> None:
+    for parent in root.iter():
+        for child in list(parent):
+            if child.tag not in allowed:
+                parent.remove(child)
+
+
+def _count(each: Element, path: Path) -> float:
+    """Return how many elements there are when all are replicated."""
+    inner = sum(_count(child, path) for child in each)
+    if each.tag != "replicate":
+        return 1.0 + inner
+    times = _number(each.get("count", "1"))
+    if times is None or not times >= 1.0:
+        raise ScenarioError(f"{path}: replicate: count={short(each.get('count', ''))}: is no whole number above 0")
+    return 1.0 + times * max(inner, 1.0)
+
+
+def _refuse_numbers(each: Element, path: Path) -> None:
+    for name, value in each.attrib.items():
+        if name not in _NAMES:
+            for number in _numbers(value):
+                if not abs(number) <= GREATEST:
+                    owner = f"{each.tag} {each.get('name', '')}".strip()
+                    raise ScenarioError(
+                        f"{path}: {short(owner)[:60]}: {short(name)[:40]} holds {number:g}; "
+                        f"allowed: numbers up to {GREATEST:g}"
+                    )
+
+
+def _numbers(value: str) -> Iterator[float]:
+    for token in value.split():
+        number = _number(token)
+        if number is not None:
+            yield number
+
+
+def _number(text: str) -> float | None:
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
+def speed_limit(joint: Element, path: Path) -> float | None:
+    """Return the greatest speed of a joint of a URDF [rad/s or m/s], or None if it tells none.
+
+    Raises:
+        ScenarioError: If it is no number.
+    """
+    limit = joint.find("limit")
+    text = None if limit is None else limit.get("velocity")
+    if text is None:
+        return None
+    speed = _number(text)
+    if speed is None or not 0.0 <= speed < math.inf:
+        name = short(joint.get("name", ""))[:60]
+        raise ScenarioError(f"{path}: joint {name}: velocity={short(text)[:60]!r}: is no speed; allowed: 0 or more")
+    return speed or None
