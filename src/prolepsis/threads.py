@@ -13,7 +13,7 @@ VARIABLE = "OPENBLAS_NUM_THREADS"
 @contextmanager
 def one_thread() -> Generator[None]:
     """Compute with one thread within, whatever is set and whichever library was imported first; also a decorator."""
-    from threadpoolctl import threadpool_limits
+    from threadpoolctl import threadpool_limits  # pyright: ignore[reportMissingTypeStubs]
 
     before = os.environ.get(VARIABLE)
     os.environ[VARIABLE] = "1"
