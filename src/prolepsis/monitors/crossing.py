@@ -7,9 +7,9 @@ every solid are followed from tick to tick, as straight lines in the frame of wh
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import partial
 
 import numpy as np
 
@@ -55,18 +55,32 @@ def crossings(things: Sequence[Thing], poses: FloatArray, stretches: Sequence[St
         stretches: What could touch something when.
     """
     small = np.array([bool(thing.roles & HIDDEN_ROLES) for thing in things])
+    reach = np.array([_reach(thing.shape.geoms) for thing in things])
+    # By number: to hash a mesh takes longer than to look at it.
+    solids: dict[tuple[int, int], _Followed] = {}
     for stretch in stretches:
-        motion = _Motion.of(poses[stretch.start : stretch.end + 1], [thing.shape.geoms for thing in things])
-        for mover, obstacle in _pairs(stretch.matter, small, motion.reach):
+        matter = stretch.matter
+        keys: list[tuple[int, int]] = list(zip(matter.thing.tolist(), matter.number.tolist(), strict=True))
+        for thing, number in set(keys) - set(solids):
+            solids[thing, number] = _Followed.of(things[thing].shape.geoms[number])
+        followed = [solids[key] for key in keys]
+        motion = _Motion.of(poses[stretch.start : stretch.end + 1], reach)
+        for mover, obstacle in _pairs(matter, small, reach):
             blocks = motion.near(mover, obstacle)
             if not len(blocks):
                 continue
-            matter = stretch.matter
             own, other = np.flatnonzero(matter.thing == mover), np.flatnonzero(matter.thing == obstacle)
+            solid_pairs = motion.close(
+                (mover, obstacle),
+                blocks,
+                [followed[row] for row in own.tolist()],
+                [followed[row] for row in other.tolist()],
+                matter.meet(own, other),
+            )
             ticks = [
                 tick
-                for a, b, chosen in motion.close(mover, obstacle, blocks, matter.meet(own, other), matter, things)
-                if (tick := motion.first_within((mover, obstacle), (a, b), chosen)) is not None
+                for one, wall, chosen in solid_pairs
+                if (tick := motion.first_within((mover, obstacle), one, wall, chosen)) is not None
             ]
             if ticks:
                 yield Crossing(tick=stretch.start + min(ticks), mover=mover, obstacle=obstacle)
@@ -81,6 +95,53 @@ def _pairs(matter: Matter, small: BoolArray, reach: FloatArray) -> Iterator[tupl
             apart = apart and (reach[mover], mover) < (reach[obstacle], obstacle)
             if mover != obstacle and not matter.fixed[own] and (matter.fixed[other] or apart):
                 yield mover, obstacle
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class _Followed:
+    """One solid in its thing's frame, and what is followed of it."""
+
+    distance: Callable[[FloatArray], FloatArray]
+    """Signed distance of points to its surface [m], (N, 3) to (N,)."""
+    half: float
+    """Its half-width [m], infinity for a plane."""
+    middle: FloatArray
+    """Middle of a ball round it [m], shape (3,)."""
+    radius: float
+    """Radius of that [m]."""
+    points: FloatArray
+    """What is followed, the middle first [m], shape (K, 3)."""
+    inner: FloatArray
+    """How deep within the solid each is [m], shape (K,)."""
+    spread: float
+    """Greatest distance of one from the middle [m]."""
+
+    @classmethod
+    def of(cls, geom: Geom) -> _Followed:
+        """Return what is followed of a solid."""
+        solid = solid_of(geom)
+        # Once for all: to look up the planes of a mesh takes longer than to use them.
+        distance = partial(_from_planes, solid.planes, solid) if geom.type == "mesh" else solid.distance
+        inside = solid.corners.mean(axis=0)
+        spread = solid.corners - inside
+        if len(spread) > 8:
+            signs = np.indices((2, 2, 2)).reshape(3, -1).T * 2.0 - 1.0
+            spread = spread[np.unique(np.argmax(spread @ signs.T, axis=0))]
+        points = np.concatenate([inside[None], inside + PROBED * spread]) @ solid.rotation.T + solid.position
+        middle, radius = _ball(geom)
+        return cls(
+            distance=distance,
+            half=np.inf if geom.type == "plane" else solid.half_width,
+            middle=middle,
+            radius=radius,
+            points=points,
+            inner=np.maximum(-distance(points), 0.0),
+            spread=float(PROBED * np.linalg.norm(spread, axis=1).max()),
+        )
+
+    def most(self, wall: _Followed) -> FloatArray:
+        """Return how deep in another solid each of the points may be [m], shape (K,)."""
+        return np.minimum(CORE * wall.half, np.maximum(DEEPEST - self.inner, 0.0))
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -101,8 +162,8 @@ class _Motion:
     """How far no solid of each thing is from its frame [m], infinity for a plane, shape (n,)."""
 
     @classmethod
-    def of(cls, poses: FloatArray, shapes: Sequence[tuple[Geom, ...]]) -> _Motion:
-        """Return the motion of things with the given solids."""
+    def of(cls, poses: FloatArray, reach: FloatArray) -> _Motion:
+        """Return the motion of things that reach so far."""
         starts = np.arange(0, len(poses), BLOCK)
         step = np.diff(poses, axis=0)
         shift = np.sqrt(np.einsum("tnc,tnc->tn", step[:, :, :3], step[:, :, :3]))
@@ -118,25 +179,36 @@ class _Motion:
             turned=_matrices(poses[starts][:, :, 3:]),
             ways=np.add.reduceat(np.concatenate([shift, still]), starts),
             turns=np.pi * np.add.reduceat(np.concatenate([np.sqrt(chord), still]), starts),
-            reach=np.array([_reach(geoms) for geoms in shapes]),
+            reach=reach,
         )
 
     def near(self, mover: int, obstacle: int) -> IntArray:
         """Return the blocks in which two things may meet."""
         way = self.poses[self.starts, mover, :3] - self.poses[self.starts, obstacle, :3]
-        slack = self.reach[mover] + self.reach[obstacle] + self.ways[:, mover] + self.ways[:, obstacle]
-        return np.flatnonzero(np.einsum("bc,bc->b", way, way) < slack**2)
+        slack = self.reach[mover] + self.ways[:, mover] + self.ways[:, obstacle]
+        if np.isinf(self.reach[obstacle]):
+            # A plane is level in the frame of its thing.
+            return np.flatnonzero(np.einsum("bc,bc->b", way, self.turned[:, obstacle, :, 2]) < slack)
+        return np.flatnonzero(np.einsum("bc,bc->b", way, way) < (slack + self.reach[obstacle]) ** 2)
 
     def close(
         self,
-        mover: int,
-        obstacle: int,
+        things: tuple[int, int],
         blocks: IntArray,
-        pairs: Sequence[tuple[int, int]],
-        matter: Matter,
-        things: Sequence[Thing],
-    ) -> Iterator[tuple[Geom, Geom, IntArray]]:
-        """Yield the solids of two things that come too close, and the blocks in which they may."""
+        solids: Sequence[_Followed],
+        walls: Sequence[_Followed],
+        meet: BoolArray,
+    ) -> Iterator[tuple[_Followed, _Followed, IntArray]]:
+        """Yield the solids of two things that come too close, and the blocks in which they may.
+
+        Args:
+            things: What moves, and what it might cross.
+            blocks: The blocks to look at, shape (B,).
+            solids: Of the first, S of them.
+            walls: Of the second, W of them.
+            meet: Which may touch which, shape (S, W).
+        """
+        mover, obstacle = things
         place, turned = _relative(
             self.poses[self.starts[blocks], mover, :3],
             self.turned[blocks, mover],
@@ -145,32 +217,30 @@ class _Motion:
         )
         ways = self.ways[blocks, mover] + self.ways[blocks, obstacle] + self.turns[blocks, mover] * self.reach[mover]
         ways += self.turns[blocks, obstacle] * (np.linalg.norm(place, axis=1) + self.reach[mover] + ways)
-        solids = {row: matter.solid(row, things) for row in {row for pair in pairs for row in pair}}
-        middles = {a: place + turned @ _points(solids[a])[0][0] for a in {a for a, _ in pairs}}
-        balls = {b: _ball(solids[b]) for b in {b for _, b in pairs}}
-        for a, b in pairs:
-            points, _, spread = _points(solids[a])
-            middle, radius = balls[b]
-            apart = middles[a] - middle
-            some = np.flatnonzero(np.einsum("bc,bc->b", apart, apart) < (radius + spread + ways) ** 2)
-            if not len(some):
-                continue
-            wall, most = solid_of(solids[b]), _most(solids[a], solids[b])
-            some = some[wall.distance(middles[a][some]) - spread - ways[some] < -most.min()]
-            if len(some):
-                there = place[some][:, None] + points @ turned[some].transpose(0, 2, 1)
-                gaps = wall.distance(there.reshape(-1, 3)).reshape(len(some), -1)
-                some = some[(gaps - ways[some, None] < -most).any(axis=1)]
-            if len(some):
-                yield solids[a], solids[b], blocks[some]
+        middles = place + np.einsum("bij,sj->sbi", turned, np.array([each.points[0] for each in solids]))
+        spread = np.array([each.spread for each in solids])
+        for w, wall in enumerate(walls):
+            apart = middles - wall.middle
+            near = np.einsum("sbc,sbc->sb", apart, apart) < (wall.radius + spread[:, None] + ways) ** 2
+            near &= meet[:, w, None]
+            for s in np.flatnonzero(near.any(axis=1)).tolist():
+                own, some = solids[s], np.flatnonzero(near[s])
+                most = own.most(wall)
+                some = some[wall.distance(middles[s, some]) - own.spread - ways[some] < -most.min()]
+                if len(some):
+                    there = place[some][:, None] + own.points @ turned[some].transpose(0, 2, 1)
+                    gaps = wall.distance(there.reshape(-1, 3)).reshape(len(some), -1)
+                    some = some[(gaps - ways[some, None] < -most).any(axis=1)]
+                if len(some):
+                    yield own, wall, blocks[some]
 
-    def first_within(self, things: tuple[int, int], solids: tuple[Geom, Geom], blocks: IntArray) -> int | None:
+    def first_within(self, things: tuple[int, int], own: _Followed, wall: _Followed, blocks: IntArray) -> int | None:
         """Return the first tick in some blocks at which one solid is too deep in the other, if there is one."""
-        points, wall, most = _points(solids[0])[0], solid_of(solids[1]), _most(*solids)
+        most = own.most(wall)
         ticks = (self.starts[blocks][:, None] + np.arange(BLOCK)).ravel()
         ticks = ticks[ticks < len(self.poses)]
-        begin = self._paths(things, points, ticks)
-        end = self._paths(things, points, np.minimum(ticks + 1, len(self.poses) - 1))
+        begin = self._paths(things, own.points, ticks)
+        end = self._paths(things, own.points, np.minimum(ticks + 1, len(self.poses) - 1))
         gaps = wall.distance(begin.reshape(-1, 3)).reshape(begin.shape[:2])
         rows, columns = np.nonzero(gaps - np.linalg.norm(end - begin, axis=2) < -most)
         if not len(rows):
@@ -180,7 +250,7 @@ class _Motion:
         return int(ticks[rows[within[0]]]) if len(within) else None
 
     def _paths(self, things: tuple[int, int], points: FloatArray, ticks: IntArray) -> FloatArray:
-        """Return where points of the first thing are in the frame of the second, shape (ticks, points, 3)."""
+        """Return where points of one thing are in the frame of the other, shape (ticks, points, 3)."""
         own, other = (self.poses[ticks, thing] for thing in things)
         place, turned = _relative(own[:, :3], _matrices(own[:, 3:]), other[:, :3], _matrices(other[:, 3:]))
         return place[:, None] + points @ turned.transpose(0, 2, 1)
@@ -194,13 +264,7 @@ def _relative(
     return (back @ (place - origin)[:, :, None])[:, :, 0], back @ turned
 
 
-def _most(geom: Geom, wall: Geom) -> FloatArray:
-    """Return how deep in another solid each of the points of one may be [m], shape (K,)."""
-    half = np.inf if wall.type == "plane" else solid_of(wall).half_width
-    return np.minimum(CORE * half, np.maximum(DEEPEST - _points(geom)[1], 0.0))
-
-
-def _deepest(wall: Solid, begin: FloatArray, end: FloatArray) -> FloatArray:
+def _deepest(wall: _Followed, begin: FloatArray, end: FloatArray) -> FloatArray:
     """Return the least signed distance on each of some lines [m], shape (N,): of a convex solid it is convex."""
     low, high = np.zeros(len(begin)), np.ones(len(begin))
     way = end - begin
@@ -211,39 +275,23 @@ def _deepest(wall: Solid, begin: FloatArray, end: FloatArray) -> FloatArray:
     return wall.distance(begin + ((low + high) / 2)[:, None] * way)
 
 
-@lru_cache(maxsize=4096)
-def _points(geom: Geom) -> tuple[FloatArray, FloatArray, float]:
-    """Return what is followed of a solid, in its thing's frame.
-
-    Returns:
-        Points, the middle first [m], shape (K, 3); how deep in the solid each is [m], shape (K,); the greatest distance
-        of one from the middle [m].
-    """
-    solid = solid_of(geom)
-    middle = solid.corners.mean(axis=0)
-    spread = solid.corners - middle
-    if len(spread) > 8:
-        signs = np.indices((2, 2, 2)).reshape(3, -1).T * 2.0 - 1.0
-        spread = spread[np.unique(np.argmax(spread @ signs.T, axis=0))]
-    local = np.concatenate([middle[None], middle + PROBED * spread])
-    points = local @ solid.rotation.T + solid.position
-    return points, np.maximum(-solid.distance(points), 0.0), float(PROBED * np.linalg.norm(spread, axis=1).max())
+def _from_planes(planes: FloatArray, solid: Solid, points: FloatArray) -> FloatArray:
+    local = (points - solid.position) @ solid.rotation
+    return (local @ planes[:, :3].T - planes[:, 3]).max(axis=1)
 
 
-@lru_cache(maxsize=4096)
+def _reach(geoms: Sequence[Geom]) -> float:
+    """Return how far solids reach from the origin of their frame [m]; infinity for a plane."""
+    balls = [_ball(geom) for geom in geoms]
+    return max((float(np.linalg.norm(middle)) + radius for middle, radius in balls), default=0.0)
+
+
 def _ball(geom: Geom) -> tuple[FloatArray, float]:
     """Return middle [m], shape (3,), and radius [m] of a ball round a solid; that round a plane has no end."""
     if geom.type == "plane":
         return np.zeros(3), np.inf
     low, high = solid_of(geom).bounds()
     return (low + high) / 2, float(np.linalg.norm(high - low)) / 2
-
-
-@lru_cache(maxsize=4096)
-def _reach(geoms: tuple[Geom, ...]) -> float:
-    """Return how far solids reach from the origin of their frame [m]; infinity for a plane."""
-    balls = [_ball(geom) for geom in geoms]
-    return max((float(np.linalg.norm(middle)) + radius for middle, radius in balls), default=0.0)
 
 
 def _matrices(quaternions: FloatArray) -> FloatArray:

@@ -55,16 +55,13 @@ class Matter:
             strangers=frozenset(model.exclude_signature.tolist()),
         )
 
-    def meet(self, first: IntArray, second: IntArray) -> list[tuple[int, int]]:
-        """Return the pairs of solids, one of each side, that may touch."""
-        found: list[tuple[int, int]] = []
-        for a in first.tolist():
-            for b in second.tolist():
-                let = (self.meets[a, 0] & self.meets[b, 1]) | (self.meets[b, 0] & self.meets[a, 1])
-                low, high = sorted((int(self.body[a]), int(self.body[b])))
-                if let and (low << 16) + high not in self.strangers:
-                    found.append((a, b))
-        return found
+    def meet(self, first: IntArray, second: IntArray) -> BoolArray:
+        """Return which solids of one thing, on one body, may touch which of another, shape (first, second)."""
+        low, high = sorted((int(self.body[first[0]]), int(self.body[second[0]])))
+        if (low << 16) + high in self.strangers:
+            return np.zeros((len(first), len(second)), dtype=np.bool_)
+        one, other = self.meets[first][:, None], self.meets[second]
+        return (one[..., 0] & other[..., 1] | other[..., 0] & one[..., 1]) > 0
 
     def row(self, geom: int) -> int:
         """Return which solid a MuJoCo geom is."""
