@@ -1,0 +1,57 @@
+"""Two tables of laws: what stands stays, and nothing gains energy.
+
+A row that fails for want of better contacts or liquids is a strict expected failure, with its reason; so is one whose
+run is invalid, which is no answer and no pass. ``docs/rest_and_energy.md`` tells of them.
+"""
+
+from __future__ import annotations
+
+import pytest
+from tests.laws import energy_scenes, rest_scenes
+from tests.laws.verdicts import gained, moved
+
+SINKS = "contacts: with a smooth onset the upper ones fall freely for a moment, until the lower ones have sunk in"
+THIN = "contacts: thin sheets sink into each other by as much as they are thick, so the run is invalid"
+SOFT = "contacts: as stiff as the lighter thing is heavy, so that a heavy one presses it in, and the run is invalid"
+THROUGH = "contacts: a book sinks in by more than a paper is thick, and meets the table below"
+PUSHED = "liquid: particles that are put round a thing push it before they have settled"
+THROWN = "liquid: coarse particles throw out what is lighter than a few of them"
+MOVES = {
+    "ten sheets of 1 mm": THIN,
+    "10 kg on 0.01 kg": SOFT,
+    "a book on a paper": THROUGH,
+    "a glass ball on the bottom of a bowl of water": PUSHED,
+    "ten sheets of 3 mm": SINKS,
+    "ten coins": SINKS,
+    "a tower of 10 cubes of 1 cm": SINKS,
+    "a tower of 10 steel cubes": SINKS,
+    **{f"a tower of {count} cubes of 5 cm": SINKS for count in (10, 15, 20)},
+    **{f"a tower of {count} flat blocks": SINKS for count in (10, 20)},
+}
+GAINS = {"a block of 1 g into water": THROWN}
+
+pytestmark = pytest.mark.laws
+
+
+def rows(names: list[str], failing: dict[str, str]) -> list[object]:
+    """Return the rows of a table, those that are known to fail marked."""
+    assert set(failing) <= set(names)
+    return [
+        pytest.param(name, marks=pytest.mark.xfail(strict=True, reason=failing[name])) if name in failing else name
+        for name in names
+    ]
+
+
+@pytest.mark.parametrize("name", rows(list(rest_scenes.SCENES), MOVES))
+def test_what_stands_stays(name: str) -> None:
+    assert moved(rest_scenes.SCENES[name]) == []
+
+
+@pytest.mark.parametrize("name", rows(list(energy_scenes.SCENES), GAINS))
+def test_nothing_gains_energy(name: str) -> None:
+    assert gained(*energy_scenes.SCENES[name]) == []
+
+
+def test_the_tables_are_long_enough() -> None:
+    assert len(rest_scenes.SCENES) >= 60
+    assert len(energy_scenes.SCENES) >= 30
