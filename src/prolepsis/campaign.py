@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
@@ -17,6 +18,8 @@ from prolepsis.workers import Lost, carry_out
 
 WORKERS = 2
 """Projections at a time; each takes one core."""
+MOST_RUNS = 10_000
+"""Runs of one sweep: more would take days."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -120,6 +123,9 @@ def sweep(
     names = list(over)
     if refine and len(names) > 1:
         raise InputError("only a sweep over one name, the force of a grasp, can be refined")
+    count = math.prod(len(values) for values in over.values())
+    if count > MOST_RUNS:
+        raise InputError(f"{count} combinations of values; allowed: {MOST_RUNS}")
     runs = [dict(zip(names, values, strict=True)) for values in itertools.product(*over.values())]
     # What is wrong with a file or a name is told once, before any process starts.
     base = read_scenario(scenario, settings or {})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import stat
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,8 @@ FORMATS = (".stl", ".obj", ".ply", ".off")
 """Files of triangles that are read."""
 GREATEST_EXTENT = 10.0
 """Longest side of a mesh [m]: beyond it, the file is in millimetres."""
+MOST_BYTES = 64 * 2**20
+"""Largest file: as much as the triangles below take, written out at length."""
 MOST_TRIANGLES = 200_000
 """More are refused: they take minutes and tell a simulation nothing."""
 
@@ -30,7 +33,12 @@ def read_surface(path: Path, scale: float = 1.0) -> Surface:
         KnowledgeError: If it cannot be read, is not watertight, encloses nothing, or is far too large.
     """
     try:
-        return _read(path, scale, path.stat().st_mtime_ns)
+        found = path.stat()
+        if not stat.S_ISREG(found.st_mode):
+            raise KnowledgeError(f"{path}: cannot read the mesh: it is no file")
+        if found.st_size > MOST_BYTES:
+            raise KnowledgeError(f"{path}: the mesh is larger than {MOST_BYTES / 2**20:g} MiB")
+        return _read(path, scale, found.st_mtime_ns)
     except OSError as error:
         raise KnowledgeError(f"{path}: cannot read the mesh: {error.strerror}") from None
 
@@ -51,7 +59,10 @@ def _read(path: Path, scale: float, changed: int) -> Surface:
     except OSError:
         raise
     except Exception as error:  # A reader of foreign files fails in as many ways as there are files.
-        raise KnowledgeError(f"{path}: cannot read the mesh: {' '.join(str(error).split())}") from None
+        # Its words may repeat what stands in the file.
+        raise KnowledgeError(
+            f"{path}: cannot read the mesh: {type(error).__name__} on reading it as {path.suffix[1:].upper()}"
+        ) from None
     if not len(triangles) or not np.isfinite(vertices).all():
         raise KnowledgeError(f"{path}: the mesh has no triangles with finite corners")
     if len(triangles) > MOST_TRIANGLES:

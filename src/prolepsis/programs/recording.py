@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+import stat
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +21,15 @@ from prolepsis.things import FloatArray
 LONGEST_GAP = 0.2
 """Two rows may be this far apart [s]: in a longer time a hand does what no row tells."""
 LEAST_ROWS = 2
+LONGEST = 600.0
+"""Longest recording [s]: ten minutes of handling; a longer one is cut in pieces."""
+MOST_ROWS, MOST_COLUMNS = 600_001, 200
+"""A row a millisecond, as fast as the simulation."""
+MOST_BYTES = 256 * 2**20
+"""Largest file."""
+GREATEST = 1.0e6
+"""Greatest number: nothing here is a million metres, newtons or turns away."""
+_COLUMN = re.compile(r"[\w ./-]{1,60}")
 UNIT_ERROR = 0.01
 """The norm of a quaternion may differ from 1 by this: its numbers are rounded."""
 PLACE, AWAY = ("x", "y", "z"), ("dx", "dy", "dz")
@@ -69,6 +80,8 @@ def read_recording(path: Path, joints: Collection[str]) -> Recording:
     known = (*OTHERS, *(name for group in GROUPS for name in group), *joints)
     for name in columns:
         if name not in known:
+            if not _COLUMN.fullmatch(name):
+                raise PlanError(f"{path.name}: there is a column {_shown(name)}; known: {', '.join(known[:20])}")
             raise UnknownNameError.of("column or joint", name, known, path.name)
     if "time" not in columns:
         raise PlanError(f"{path.name}: there is no column time [s]")
@@ -106,19 +119,68 @@ def read_recording(path: Path, joints: Collection[str]) -> Recording:
 
 def _columns(path: Path) -> dict[str, FloatArray]:
     """Return the columns of a file as numbers, empty cells as NaN."""
-    known, reader = cast(Any, arrow), cast(Any, parquet if path.suffix == ".parquet" else csv)
+    known = cast(Any, arrow)
+    content = known.BufferReader(_content(path))
     try:
-        table: Any = reader.read_table(path) if path.suffix == ".parquet" else reader.read_csv(path)
-    except (OSError, known.ArrowInvalid) as error:
-        raise PlanError(f"{path}: the recording cannot be read: {' '.join(str(error).split())}") from None
+        table: Any = _parquet(path, content) if path.suffix == ".parquet" else cast(Any, csv).read_csv(content)
+        names = [str(name).strip() for name in table.column_names]
+    except (OSError, UnicodeError, known.ArrowException) as error:
+        raise PlanError(f"{path.name}: the recording cannot be read: {_reason(str(error))}") from None
+    twice = next((name for k, name in enumerate(names) if name in names[:k]), None)
+    if twice is not None:
+        raise PlanError(f"{path.name}: column {_shown(twice)} is there twice")
+    _refuse_large(path, table.num_rows, len(names))
     columns: dict[str, FloatArray] = {}
-    for name in table.column_names:
+    for k, name in enumerate(names):
         try:
-            column: Any = table.column(name).cast(known.float64()).to_numpy()
+            column: Any = table.column(k).cast(known.float64()).to_numpy()
         except (known.ArrowInvalid, known.ArrowNotImplementedError):
-            raise PlanError(f"{path.name}: column {name} holds something that is no number") from None
-        columns[str(name).strip()] = np.array(column, dtype=np.float64)
+            raise PlanError(f"{path.name}: column {_shown(name)} holds something that is no number") from None
+        columns[name] = np.array(column, dtype=np.float64)
     return columns
+
+
+def _content(path: Path) -> bytes:
+    """Return the bytes of a file: not of a device or a pipe, and not more than a recording has."""
+    try:
+        if not stat.S_ISREG(path.stat().st_mode):
+            raise PlanError(f"{path.name}: the recording cannot be read: it is no file")
+        with path.open("rb") as file:
+            content = file.read(MOST_BYTES + 1)
+    except OSError as error:
+        raise PlanError(f"{path.name}: the recording cannot be read: {error.strerror}") from None
+    if len(content) > MOST_BYTES:
+        raise PlanError(f"{path.name}: the recording is longer than {MOST_BYTES / 2**20:g} MiB")
+    return content
+
+
+def _parquet(path: Path, content: Any) -> Any:
+    """Return the table in a Parquet file, whose size it tells before anything is unpacked."""
+    file = cast(Any, parquet).ParquetFile(content)
+    _refuse_large(path, file.metadata.num_rows, file.metadata.num_columns)
+    for field in file.schema_arrow:
+        kinds = cast(Any, arrow).types
+        if not (kinds.is_integer(field.type) or kinds.is_floating(field.type)):
+            raise PlanError(f"{path.name}: column {_shown(str(field.name))} holds something that is no number")
+    return file.read()
+
+
+def _refuse_large(path: Path, rows: int, columns: int) -> None:
+    if rows > MOST_ROWS or columns > MOST_COLUMNS:
+        raise PlanError(
+            f"{path.name}: {rows} rows of {columns} columns; allowed: {MOST_ROWS} rows, {MOST_COLUMNS} columns"
+        )
+
+
+def _reason(message: str) -> str:
+    """Return what is wrong with a file that cannot be read, without what stands in it."""
+    counts = re.search(r"Expected \d+ columns, got \d+", message)
+    return counts.group().lower() if counts else "it is no table of numbers under a line of names"
+
+
+def _shown(name: str) -> str:
+    """Return a column's name, or that it is none: the file may be any."""
+    return name if _COLUMN.fullmatch(name) else "with a name that cannot be one"
 
 
 def _refuse_holes(path: Path, columns: Mapping[str, FloatArray], time: FloatArray) -> None:
@@ -129,6 +191,13 @@ def _refuse_holes(path: Path, columns: Mapping[str, FloatArray], time: FloatArra
         wrong = np.flatnonzero(~np.isfinite(values))
         if len(wrong):
             raise PlanError(f"{path.name}: row {wrong[0] + 1}: {name} is no finite number")
+        with np.errstate(over="ignore"):
+            huge = np.flatnonzero(np.abs(values - (time[0] if name == "time" else 0.0)) > GREATEST)
+        if len(huge):
+            k = int(huge[0])
+            raise PlanError(f"{path.name}: row {k + 1}: {name} is {values[k]:.4g}; allowed: up to {GREATEST:g}")
+    if time[-1] - time[0] > LONGEST:
+        raise PlanError(f"{path.name}: the recording lasts {time[-1] - time[0]:.6g} s; allowed {LONGEST:g} s")
     steps = np.diff(time)
     back, wide = np.flatnonzero(steps <= 0.0), np.flatnonzero(steps > LONGEST_GAP + 1e-9)
     if len(back):

@@ -20,8 +20,12 @@ FRAME_RATE = 30
 """Frames of a video a second of watching."""
 MARK = "prolepsis"
 """Key of a text in each frame, the SHA-256 of its pixels, by which a frame of ours is known."""
-LARGEST = 4096
-"""Greatest side of a frame [pixel]."""
+MOST_FRAMES = 20_000
+"""Pictures that are drawn at most: eleven minutes of a video, and some gigabytes of PNG files."""
+MOST_MOMENTS, MOST_PIXELS = 100, 100_000_000
+"""Moments of a strip, and pixels of all together."""
+SMALLEST, LARGEST = 16, 4096
+"""Sides of a picture [pixel]."""
 BEHIND = 0.6
 """Part of what a vessel adds to a picture that is due to its far walls [1]: three of the five surfaces in line."""
 
@@ -55,6 +59,12 @@ def render_video(
     if not 0.001 <= speed <= 100.0:
         raise InputError(f"speed {speed:g}: is not between 0.001 and 100")
     count = max(2, round(log.duration / speed * FRAME_RATE))
+    if count > MOST_FRAMES:
+        raise InputError(
+            f"speed {speed:g}: a video of {log.duration:g} s would have {count} frames; allowed: {MOST_FRAMES}, "
+            f"so a speed of at least {log.duration * FRAME_RATE / MOST_FRAMES:.3g}"
+        )
+    _refuse_size(size)
     ticks = _ticks(log, np.arange(count) * speed / FRAME_RATE)
     with written_aside(target) as aside:
         writer: Any = cast(Any, imageio_ffmpeg).write_frames(
@@ -83,7 +93,8 @@ def render_frames(
     """
     target = Path(folder).absolute()
     check_replaceable(target, _our_frames)
-    ticks = _evenly(log, count)
+    ticks = _evenly(log, count, MOST_FRAMES)
+    _refuse_size(size)
     names: list[str] = []
     with written_aside(target, _our_frames) as aside:
         aside.mkdir()
@@ -124,9 +135,15 @@ def render_strip(
         raise InputError(f"{out}: a strip's name ends in .png")
     if not (0.0 <= part[0] < part[2] <= 1.0 and 0.0 <= part[1] < part[3] <= 1.0):
         raise InputError(f"part {part}: must be left < right and top < bottom, each between 0 and 1")
-    ticks = _evenly(log, count) if times is None else _ticks(log, np.asarray(times))
+    if times is not None and not 0 < len(times) <= MOST_MOMENTS:
+        raise InputError(f"{len(times)} moments: allowed: 1 to {MOST_MOMENTS}")
+    ticks = _evenly(log, count, MOST_MOMENTS) if times is None else _ticks(log, np.asarray(times))
     width, height = size
     whole = round(width / (part[2] - part[0])), round(height / (part[3] - part[1]))
+    _refuse_size(size)
+    _refuse_size(whole)
+    if len(ticks) * width * height > MOST_PIXELS:
+        raise InputError(f"a strip of {len(ticks)} pictures of {width} by {height} pixels: allowed: {MOST_PIXELS:g}")
     left, top = round(part[0] * whole[0]), round(part[1] * whole[1])
     shown = [
         _with_time(picture[top : top + height, left : left + width], float(log.time[tick]))
@@ -169,9 +186,14 @@ def _ticks(log: Log, times: Any) -> list[int]:
     return [int(tick) for tick in np.clip(np.rint(times / log.dt), 0, log.tick_count - 1)]
 
 
-def _evenly(log: Log, count: int) -> list[int]:
-    if count < 1:
-        raise InputError(f"{count} pictures: at least one is needed")
+def _refuse_size(size: tuple[int, int]) -> None:
+    if not all(SMALLEST <= side <= LARGEST for side in size):
+        raise InputError(f"a picture of {size[0]} by {size[1]} pixels: allowed: each side {SMALLEST} to {LARGEST}")
+
+
+def _evenly(log: Log, count: int, most: int) -> list[int]:
+    if not 1 <= count <= most:
+        raise InputError(f"{count} pictures: allowed: 1 to {most}")
     return _ticks(log, np.linspace(0.0, max(0, log.tick_count - 1) * log.dt, count))
 
 

@@ -70,6 +70,7 @@ def load_robot(own: OwnRobot, folder: Path) -> Robot:
     model: Any = file.spec.compile()
     chains = {name: _chain(model, own, name, given, where[name]) for name, given in own.grippers.items()}
     _refuse_shared(chains, path)
+    _refuse_second_roles(model, own, chains, path)
     homes = _homes(model, own, chains, file, where)
     data = _at_home(model, homes)
     inertias = _inertias(model, data, list(own.grippers.values()))
@@ -141,6 +142,37 @@ def _refuse_shared(chains: dict[str, tuple[str, ...]], path: Path) -> None:
                 raise ScenarioError(
                     f"{path}: the joint {shared[0]} is on the way to {name} and to {other}; list it under torso"
                 )
+
+
+def _refuse_second_roles(model: Any, own: OwnRobot, chains: dict[str, tuple[str, ...]], path: Path) -> None:
+    """Refuse joints that are to do two things, and a base that is none."""
+    roles = {"base": own.base, "torso": own.torso, "head": own.head}
+    roles |= {f"an arm of {name}": chain for name, chain in chains.items()}
+    roles |= {f"fingers of {name}": given.fingers for name, given in own.grippers.items()}
+    seen: dict[str, str] = {}
+    for role, joints in roles.items():
+        for joint in joints:
+            if joint in seen:
+                raise ScenarioError(
+                    f"{path}: the joint {joint} is in {seen[joint]} and in {role}; allowed: one of them"
+                )
+            seen[joint] = role
+    if not own.base:
+        return
+    kinds = [int(model.jnt_type[model.joint(joint).id]) for joint in own.base]
+    slide, hinge = int(mujoco.mjtJoint.mjJNT_SLIDE), int(mujoco.mjtJoint.mjJNT_HINGE)
+    if kinds != [slide, slide, hinge]:
+        raise ScenarioError(
+            f"{path}: base: {', '.join(own.base)} are no base; allowed: two joints that slide, then one that turns"
+        )
+    for given in own.grippers.values():
+        body, above = int(model.body(given.palm).id), set[int]()
+        while body:
+            above.add(body)
+            body = int(model.body_parentid[body])
+        for joint in own.base:
+            if int(model.jnt_bodyid[model.joint(joint).id]) not in above:
+                raise ScenarioError(f"{path}: base: the joint {joint} does not carry the palm {given.palm}")
 
 
 def _homes(

@@ -15,6 +15,7 @@ import numpy as np
 from prolepsis.engine import mujoco
 from prolepsis.errors import ScenarioError
 from prolepsis.robots.model_text import inside, is_regular, read_model_tree, short, speed_limit
+from prolepsis.robots.trial import try_robot
 
 ROOT = "mount"
 """Body that is added if none carries all others."""
@@ -44,16 +45,23 @@ class ModelFile:
     """Coordinates of the joints at the keyframe called home, if there is one [rad or m]."""
 
 
-def read_model_file(path: Path) -> ModelFile:
+def read_model_file(path: Path, *, tried: bool = False) -> ModelFile:
     """Return the robot in an MJCF or URDF file.
+
+    Args:
+        path: The file.
+        tried: Whether this is the process in which it is tried, or needs no trial.
 
     Raises:
         ScenarioError: If it cannot be read, its meshes are missing, or it is built in a way that is not supported.
     """
     tree = read_model_tree(path)
     speeds = _speeds(tree, path)
+    text = ElementTree.tostring(tree, encoding="unicode")
+    if not tried:
+        try_robot(path, text.encode(), _named_meshes(tree, path))
     try:
-        spec: Any = mujoco.MjSpec.from_string(ElementTree.tostring(tree, encoding="unicode"))
+        spec: Any = mujoco.MjSpec.from_string(text)
     except (ValueError, OSError) as error:
         raise ScenarioError(f"{path}: the robot cannot be read: {_line(error)}") from None
     # A URDF's links without joints would be melted into their parents, and their names with them.
@@ -76,6 +84,14 @@ def read_model_file(path: Path) -> ModelFile:
             joint.actfrcrange = [-efforts[joint.name], efforts[joint.name]]
     spec.compile()
     return ModelFile(spec=_on_one_body(spec), speeds=speeds, efforts=efforts, home=home)
+
+
+def _named_meshes(tree: ElementTree.Element, path: Path) -> list[Path]:
+    """Return the files of meshes that a model names, as far as they are there."""
+    folders = [each.get(name, "") for each in tree.iter("compiler") for name in ("meshdir", "assetdir")]
+    names = [each.get(name, "") for each in tree.iter("mesh") for name in ("file", "filename")]
+    found = [_place_of(name, path, folder) for name in names if name for folder in (*folders, "")]
+    return [place for place in found if place is not None and place.stat().st_size <= MOST_BYTES_OF_MESHES]
 
 
 def _find_meshes(spec: Any, path: Path) -> None:

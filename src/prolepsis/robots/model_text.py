@@ -25,6 +25,8 @@ GREATEST = 1e18
 """Greatest number: its powers are still finite. Limits of joints without one are written as 1e16."""
 LARGEST = 1_000_000
 """Greatest entry of ``<size>``."""
+LONGEST_NAME = 250
+"""Characters of a name or of a path."""
 MOST_SAID = 160
 """Characters of a foreign text that a message repeats at most."""
 
@@ -271,7 +273,10 @@ def _count(each: Element, path: Path) -> float:
 
 def _refuse_numbers(each: Element, path: Path) -> None:
     for name, value in each.attrib.items():
-        if name not in _NAMES:
+        if name in _NAMES:
+            if len(value) > LONGEST_NAME:
+                raise ScenarioError(f"{path}: {each.tag[:40]}: {name} is longer than {LONGEST_NAME} characters")
+        else:
             for number in _numbers(value):
                 if not abs(number) <= GREATEST:
                     owner = f"{each.tag} {each.get('name', '')}".strip()

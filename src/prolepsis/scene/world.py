@@ -36,6 +36,8 @@ NEAR = 0.01
 """Contacts of breakable things are detected at this distance [m], so that the substep shrinks before the impact."""
 DEFAULT_FRICTION = 0.5
 """Sliding friction of a thing of which nothing is known [1]."""
+MOST_MOVING, MOST_SOLIDS = 2000, 20_000
+"""Things that move and solids of a scene: MuJoCo sets aside 1.6 kB for each pair of things, 6 GB for so many."""
 MAX_STEP = 1.0e-3
 """Longest substep [s]: with nothing going on."""
 HIDDEN_ROLES = frozenset({"Piece", "Blob"})
@@ -80,8 +82,10 @@ def compile_world(scene: Scene) -> World:
     """Return the world of a scene.
 
     Raises:
-        KnowledgeError: If two things overlap at the start, or one is too small or light to be simulated.
+        KnowledgeError: If there are too many things, two overlap at the start, or one is too small or light to be
+            simulated.
     """
+    _refuse_many(scene)
     spec = mujoco.MjSpec()
     spec.modelname = "prolepsis"
     spec.compiler.degree = False
@@ -122,6 +126,17 @@ def compile_world(scene: Scene) -> World:
     world = World(scene=scene, spec=spec, model=model, ranks=ranks, posture=start)
     _refuse_overlaps(scene, model, world.start(model))
     return world
+
+
+def _refuse_many(scene: Scene) -> None:
+    """Refuse a scene that is too large, before anything is built."""
+    moving = sum(bool(thing.shape.geoms) and not thing.fixed for thing in scene.things)
+    solids = sum(len(thing.shape.geoms) for thing in scene.things)
+    for what, count, most in (("things that move", moving, MOST_MOVING), ("convex solids", solids, MOST_SOLIDS)):
+        if count > most:
+            raise KnowledgeError(
+                f"the scene has {count} {what}; allowed: {most}, since what MuJoCo needs grows with the square"
+            )
 
 
 def friction_of(thing: Thing) -> float:

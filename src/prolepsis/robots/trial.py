@@ -1,0 +1,90 @@
+"""A robot's file is first read in a process of its own: if MuJoCo ends with a crash there, that is a message here.
+
+MuJoCo is native code, and a mesh that it does not expect may end the process that reads it, or use all memory. The
+trial takes about a second; that it was passed is kept under all that MuJoCo has seen.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterable
+from importlib.metadata import version
+from pathlib import Path
+
+from prolepsis.cache import cache_root
+from prolepsis.errors import InputError, ScenarioError
+
+MEMORY = 4 * 2**30
+"""Address space of the process [byte]: MuJoCo itself takes half a gigabyte of it."""
+SECONDS = 60
+"""Time of the processor that it may take [s]."""
+PASSED, REFUSED = 0, 2
+
+
+def try_robot(path: Path, model: bytes, meshes: Iterable[Path]) -> None:
+    """Refuse a robot that the process which reads it does not survive.
+
+    Args:
+        path: Its file.
+        model: What MuJoCo is given of it.
+        meshes: Files that MuJoCo reads.
+
+    Raises:
+        ScenarioError: If the process refuses it, or ends otherwise.
+    """
+    seen = hashlib.sha256(f"1 mujoco {version('mujoco')}\n".encode() + model)
+    for mesh in sorted(set(meshes)):
+        seen.update(mesh.read_bytes())
+    passed = cache_root() / "robots" / seen.hexdigest()
+    if passed.is_file():
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        # MuJoCo writes its warnings into the working folder.
+        ended = subprocess.run(
+            [sys.executable, "-m", __name__, str(path.absolute())],
+            cwd=folder,
+            env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            check=False,
+        )
+    if ended.returncode == REFUSED:
+        raise ScenarioError(ended.stdout.decode(errors="replace").replace(str(path.absolute()), str(path)))
+    if ended.returncode != PASSED:
+        how = "an error"
+        if ended.returncode < 0:
+            how = signal.Signals(-ended.returncode).name
+        raise ScenarioError(
+            f"{path}: the robot cannot be built: reading it in a process of its own ended with {how} (allowed: "
+            f"{MEMORY / 2**30:g} GiB and {SECONDS} s); its meshes may be damaged or too fine"
+        )
+    try:
+        passed.parent.mkdir(parents=True, exist_ok=True)
+        passed.touch()
+    except OSError:
+        pass  # A cache that cannot be written only costs time.
+
+
+def main(path: Path) -> int:
+    """Read a robot within limits; print why, if it is refused."""
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    from prolepsis.robots.model_file import read_model_file
+
+    try:
+        read_model_file(path, tried=True)
+    except InputError as error:
+        sys.stdout.write(str(error))
+        return REFUSED
+    return PASSED
+
+
+if __name__ == "__main__":
+    sys.exit(main(Path(sys.argv[1])))
