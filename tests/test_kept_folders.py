@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 import json
+import os
+import shutil
 import signal
 import subprocess
 import sys
 import textwrap
+import time
+from contextlib import suppress
 from pathlib import Path
 
+import numpy as np
 import pytest
+from tests.synthetic import egg_drop_log
 
 from prolepsis import aside
 from prolepsis.errors import InputError
+from prolepsis.log_files import write_log
 from prolepsis.sealed import MANIFEST, read_sealed, write_sealed
 
 
@@ -181,3 +188,55 @@ def test_a_kill_at_any_step_leaves_the_old_or_the_new_and_the_next_one_clears_up
     else:
         pytest.fail("it was killed a hundred times and never came to its end")
     assert seen == {"old", "new"}
+
+
+def test_a_disk_that_fills_while_saving_leaves_the_old_one(tmp_path: Path) -> None:
+    write_log(egg_drop_log(), tmp_path / "run")
+    before = {file.name: file.read_bytes() for file in (tmp_path / "run").iterdir()}
+    code = (
+        "import resource, sys; from prolepsis.log_files import write_log; from tests.synthetic import wet_log\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[2]), -1))\n"
+        "try:\n    write_log(wet_log(), sys.argv[1])\nexcept OSError as error:\n    print('full')"
+    )
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path)}
+    for most in (0, 100, 1000, 5000):
+        command = [sys.executable, "-c", code, str(tmp_path / "run"), str(most)]
+        done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+        assert (done.stdout, done.stderr) == ("full\n", "")
+        assert {file.name: file.read_bytes() for file in (tmp_path / "run").iterdir()} == before
+        assert [file.name for file in tmp_path.iterdir()] == ["run"]
+
+
+@pytest.mark.laws
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
+def test_a_projection_that_is_ended_at_any_moment_leaves_the_old_or_the_new(
+    tmp_path: Path, how: signal.Signals
+) -> None:
+    examples = Path(__file__).parent.parent / "examples"
+    shutil.copy(examples / "dropped_egg.ttl", tmp_path)
+    texts = {"old": "wait(0.01)", "new": "wait(0.02)"}
+    for name, plan in texts.items():
+        text = f'situation = "dropped_egg.ttl"\nplan = "{plan}"\nduration = 0.03\n'
+        (tmp_path / f"{name}.toml").write_text(text)
+
+    def command(name: str) -> list[str]:
+        return [sys.executable, "-m", "prolepsis", "project", str(tmp_path / f"{name}.toml"), "--out", str(run)]
+
+    run = tmp_path / "out" / "run"
+    began = time.monotonic()
+    subprocess.run(command("old"), check=True, capture_output=True)
+    whole = time.monotonic() - began
+    random = np.random.default_rng(5)
+    for _ in range(10):
+        with subprocess.Popen(command("new"), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+            with suppress(subprocess.TimeoutExpired):
+                # Most of the moments are late, when something is written.
+                process.wait(whole * (1.2 - random.random() ** 2))
+            process.send_signal(how)
+        assert process.returncode in (0, -how, 130)
+        plan = json.loads((read_sealed(run) / "scenario.json").read_text())["plan"]
+        assert plan in texts.values()
+        if plan == texts["new"]:
+            subprocess.run(command("old"), check=True, capture_output=True)
+    subprocess.run(command("new"), check=True, capture_output=True)
+    assert [file.name for file in run.parent.iterdir()] == ["run"]

@@ -17,7 +17,7 @@ def _cache_folder() -> Path | None:
     chosen = os.environ.get(CACHE_VARIABLE)
     if chosen is not None:
         return Path(chosen) if chosen else None
-    return cache_root() / "types"
+    return cache_root() / "answers"
 
 
 def read_answer(key: str) -> list[int] | str | None:
