@@ -100,7 +100,7 @@ class InconsistentError(KnowledgeError):
 
 
 class UndecidedError(KnowledgeError):
-    """The reasoner ran out of time, so it is not known whether the knowledge base contradicts itself."""
+    """The reasoner ran out of time; a knowledge base that is loaded says so in ``unchecked`` instead."""
 
 
 class ScenarioError(InputError):

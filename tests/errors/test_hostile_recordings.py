@@ -16,6 +16,7 @@ from prolepsis.errors import InputError
 from prolepsis.programs.recording import read_recording
 
 arrow: Any = pyarrow
+parquet: Any = pyarrow.parquet
 HEAD = b"time,dx,dy,dz\n"
 FILES = {
     "huge numbers": (HEAD + b"0,0,0,0\n0.1,1e308,0,0\n", "row 2: dx is 1e+308; allowed: up to 1e+06"),
@@ -68,13 +69,13 @@ def test_a_packed_stream_is_not_unpacked(tmp_path: Path) -> None:
 
 def test_a_table_of_many_rows_is_refused_before_it_is_unpacked(tmp_path: Path) -> None:
     rows = arrow.table({name: np.zeros(2_000_000) for name in ("time", "dx", "dy", "dz")})
-    arrow.parquet.write_table(rows, tmp_path / "r.parquet")
+    parquet.write_table(rows, tmp_path / "r.parquet")
     assert (tmp_path / "r.parquet").stat().st_size < 100_000
     assert "2000000 rows of 4 columns; allowed: 600001 rows" in refusal(tmp_path / "r.parquet")
 
 
 def test_a_table_of_texts_is_refused_before_it_is_unpacked(tmp_path: Path) -> None:
-    arrow.parquet.write_table(arrow.table({"time": [0.0, 0.1], "dx": ["secret" * 1000] * 2}), tmp_path / "r.parquet")
+    parquet.write_table(arrow.table({"time": [0.0, 0.1], "dx": ["secret" * 1000] * 2}), tmp_path / "r.parquet")
     assert "column dx holds something that is no number" in refusal(tmp_path / "r.parquet")
 
 
