@@ -98,7 +98,7 @@ def progress_line(wanted: bool) -> Generator[Callable[[str], None]]:
 
 @contextmanager
 def notes_told() -> Generator[None]:
-    """Tell each note once, in a line of standard error; other warnings are Python's affair."""
+    """Tell each note once, in a line of standard error; other warnings are for developers, who ask for them."""
     show = warnings.showwarning
     told: set[str] = set()
 
@@ -111,7 +111,8 @@ def notes_told() -> Generator[None]:
         line: str | None = None,
     ) -> None:
         if not issubclass(category, Note):
-            show(message, category, filename, lineno, file, line)
+            if sys.warnoptions:
+                show(message, category, filename, lineno, file, line)
         elif str(message) not in told:
             told.add(str(message))
             print(error_line(f"prolepsis: note: {message}"), file=sys.stderr)

@@ -91,6 +91,9 @@ def parse_turtle(text: str, path: Path, *, built_in: bool = False) -> Document:
         raise KnowledgeError(f"{path}: Turtle syntax: blank nodes or lists are nested too deeply") from error
     except (ParserError, ValueError) as error:
         raise KnowledgeError(f"{path}: Turtle syntax: {brief(error, 200)}") from error
+    except (LookupError, AttributeError, TypeError, AssertionError, ArithmeticError) as error:
+        # The parser stumbles over a text that ends, or turns to something else, where it does not look.
+        raise KnowledgeError(f"{path}: Turtle syntax: a statement does not end as it must") from error
     return Document(path=path, graph=graph, built_in=built_in, lines=first_lines(text))
 
 

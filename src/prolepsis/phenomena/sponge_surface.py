@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from prolepsis.errors import KnowledgeError
 from prolepsis.fields.signed_distance import Field, field_of
 from prolepsis.fields.solids import bounded
 from prolepsis.things import BoolArray, FloatArray, IntArray, Shape
@@ -16,6 +17,8 @@ APART = 0.9
 """Least distance of two places outside [spacings]."""
 SMALL = 1e-3
 """Step of finite differences [spacings]."""
+MOST_PLACES = 10_000_000
+"""Most places that are looked at to find the surface; more would take gigabytes."""
 GOLDEN = 1.2207440846057596
 """The number g with g^4 = g + 1: multiples of its powers fill a box evenly.
 
@@ -26,7 +29,11 @@ class SpongeSurface:
     """Inside and outside of one shape, in its own frame, for liquids of one spacing."""
 
     def __init__(self, shape: Shape, spacing: float) -> None:
-        """Find the places of a shape for particles ``spacing`` [m] apart."""
+        """Find the places of a shape for particles ``spacing`` [m] apart.
+
+        Raises:
+            KnowledgeError: If they are too many.
+        """
         self._field: Field = field_of(shape)
         corners = np.array([solid.bounds() for solid in bounded(shape)])
         self.low: FloatArray = corners[:, 0].min(axis=0)
@@ -37,7 +44,14 @@ class SpongeSurface:
         """Places for particles that come out [m], and the normals there, shape (k, 3) each."""
 
     def _outside(self, spacing: float) -> tuple[FloatArray, FloatArray]:
-        steps = np.ceil((self.high - self.low) / spacing) + 2
+        size = self.high - self.low
+        steps = np.ceil(size / spacing) + 2
+        if steps.prod() > MOST_PLACES:
+            shown = " x ".join(f"{1e3 * float(side):.4g}" for side in size)
+            raise KnowledgeError(
+                f"a sponge of {shown} mm is too large for particles {1e3 * spacing:.2g} mm apart: at most "
+                f"{MOST_PLACES:,} places are looked at; allowed: a smaller sponge, or fewer particles"
+            )
         axes = [(np.arange(int(n)) - (float(n) - 1) / 2) * spacing for n in steps]
         grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3) + (self.low + self.high) / 2
         distance = self._field.distance(grid)
