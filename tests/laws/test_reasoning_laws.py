@@ -19,8 +19,10 @@ SLOW = (HealthCheck.too_slow, HealthCheck.filter_too_much)
 CLASSES = [f"<c:{name}>" for name in "ABCD"]
 ROLES = ["<r:p>", "<r:q>"]
 PEOPLE = [f"<i:{k}>" for k in range(4)]
-DECLARED = [f"Declaration(Class({name}))" for name in CLASSES]
-DECLARED += [f"Declaration(ObjectProperty({role}))" for role in ROLES]
+DECLARED = [
+    *(f"Declaration(Class({name}))" for name in CLASSES),
+    *(f"Declaration(ObjectProperty({role}))" for role in ROLES),
+]
 
 classes, roles, people = st.sampled_from(CLASSES), st.sampled_from(ROLES), st.sampled_from(PEOPLE)
 ways = roles | st.builds("ObjectInverseOf({})".format, roles)
