@@ -55,10 +55,11 @@ def _time(number: Any, least: float) -> float:
 def _domain(table: Any) -> Domain:
     """Return the domain whose rows these are; each has as many texts as its kind of row, and values may be numbers."""
     names = [each.name for each in fields(Domain)]
-    if not isinstance(table, dict) or cast("dict[str, Any]", table).keys() != set(names):
+    # Older folders do not say whether it was checked: it was, or they would not be.
+    if not isinstance(table, dict) or {"unchecked", *cast("dict[str, Any]", table)} != set(names):
         raise ValueError(f"{DOMAIN} must be an object with {', '.join(names)}")
     rows = cast("dict[str, Any]", table)
-    unchecked = rows["unchecked"]
+    unchecked = rows.get("unchecked", "")
     if not isinstance(unchecked, str):
         raise ValueError(f"{DOMAIN}: unchecked must be a text")
     columns = {name: 3 if name in ("values", "relations") else 2 for name in names if name != "unchecked"}

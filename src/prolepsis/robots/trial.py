@@ -17,7 +17,7 @@ from collections.abc import Iterable
 from importlib.metadata import version
 from pathlib import Path
 
-from prolepsis.cache import cache_root
+from prolepsis.cache import cache_root, keep, read_kept
 from prolepsis.errors import InputError, ScenarioError
 
 MEMORY = 4 * 2**30
@@ -42,7 +42,7 @@ def try_robot(path: Path, model: bytes, meshes: Iterable[Path]) -> None:
     for mesh in sorted(set(meshes)):
         seen.update(mesh.read_bytes())
     passed = cache_root() / "robots" / seen.hexdigest()
-    if passed.is_file():
+    if read_kept(passed) is not None:
         return
     with tempfile.TemporaryDirectory() as folder:
         # MuJoCo writes its warnings into the working folder.
@@ -64,11 +64,7 @@ def try_robot(path: Path, model: bytes, meshes: Iterable[Path]) -> None:
             f"{path}: the robot cannot be built: reading it in a process of its own ended with {how} (allowed: "
             f"{MEMORY / 2**30:g} GiB and {SECONDS} s); its meshes may be damaged or too fine"
         )
-    try:
-        passed.parent.mkdir(parents=True, exist_ok=True)
-        passed.touch()
-    except OSError:
-        pass  # A cache that cannot be written only costs time.
+    keep(passed, b"")
 
 
 def main(path: Path) -> int:

@@ -29,6 +29,8 @@ from prolepsis.shapes.mesh import mesh
 from prolepsis.things import Quaternion, Shape, Thing
 from prolepsis.threads import one_thread
 
+MOST_INDIVIDUALS = 4000
+"""Individuals of a situation: twice as many as there may be things that move, and looking further would take long."""
 ROLES = (
     "Gripper",
     "Container",
@@ -81,6 +83,8 @@ def compose(kb: KnowledgeBase, *, particles: int = DEFAULT_PARTICLES, robot: Rob
     Raises:
         KnowledgeError: If something has no shape or place that can be simulated.
     """
+    if len(kb.objects) > MOST_INDIVIDUALS:
+        raise KnowledgeError(f"the situation has {len(kb.objects)} individuals; allowed: {MOST_INDIVIDUALS}")
     refuse_nonsense(kb)
     names = [name for name in kb.objects if kb.whole(name) is None]
     liquids = [name for name in names if is_liquid(kb, name)]
