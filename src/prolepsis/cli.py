@@ -122,8 +122,17 @@ def _tell(error: object, status: int) -> int:
     if encoding := getattr(sys.stderr, "encoding", None):
         # What cannot be written is written longer.
         line = line.encode(encoding, "backslashreplace").decode(encoding)
-    print(error_line(line), file=sys.stderr)
+    try:
+        print(error_line(line), file=sys.stderr, flush=True)
+    except OSError:
+        # Then the status alone says it.
+        _give_up(sys.stderr)
     return status
+
+
+def _give_up(stream: TextIO) -> None:
+    """Let a stream that cannot be written lead nowhere, or Python would complain once more when it ends."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 class _Output:
@@ -155,8 +164,7 @@ class _Output:
 
     def _give_up(self, problem: OSError) -> None:
         self._problem = self._problem or problem
-        # Python would complain once more when it ends.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), self._stream.fileno())
+        _give_up(self._stream)
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._stream, name)

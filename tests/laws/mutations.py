@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Sequence
 from random import Random
 
 from hypothesis import strategies as st
@@ -119,6 +120,8 @@ OTHERS = os.environ.get("PROLEPSIS_FUZZ_SEED", "")
 """Chooses other inputs than those of always."""
 ALIKE = 0.7
 """Share of values that are of the same kind as what they replace, so that what reads them gets far."""
+OWN = 0.3
+"""Share of values that come from the text itself."""
 KINDS = ("replace",) * 12 + (
     "drop",
     "double",
@@ -151,7 +154,8 @@ def _mutation(text: str, chance: Random) -> str:
     """Return a text with one change."""
     kind = chance.choice(KINDS)
     if kind.endswith(("line", "lines")):
-        return "\n".join(_changed(text.split("\n"), kind.split()[0], chance))
+        lines = text.split("\n")
+        return "\n".join(_changed(lines, kind.split()[0], chance, range(len(lines))))
     if kind == "insert":
         k = chance.randint(0, len(text))
         return text[:k] + chance.choice(chance.choice(VALUES)) + text[k:]
@@ -161,18 +165,12 @@ def _mutation(text: str, chance: Random) -> str:
     # A mark that is wrong is noticed at once; what is said with the right ones gets farther.
     marks = chance.random() > ALIKE
     meant = [k for k, part in enumerate(parts) if not part.isspace() and (marks or re.match(r"[\w:\"'-]", part))]
-    if not meant:
-        return text
-    chosen = _changed([parts[k] for k in meant], kind, chance)
-    if len(chosen) != len(meant):
-        return " ".join(chosen)
-    for k, part in zip(meant, chosen, strict=True):
-        parts[k] = part
-    return "".join(parts)
+    return "".join(_changed(parts, kind, chance, meant)) if meant else text
 
 
-def _changed(items: list[str], kind: str, chance: Random) -> list[str]:
-    i, j = chance.randrange(len(items)), chance.randrange(len(items))
+def _changed(items: list[str], kind: str, chance: Random, meant: Sequence[int]) -> list[str]:
+    """Return the items with one change of those that are meant."""
+    i, j = chance.choice(meant), chance.choice(meant)
     match kind:
         case "drop":
             del items[i]
@@ -183,7 +181,7 @@ def _changed(items: list[str], kind: str, chance: Random) -> list[str]:
         case "repeat":
             items[i] *= max(min(2000, LONGEST // max(len(items[i]), 1)), 1)
         case _:
-            items[i] = _another(items[i], chance)
+            items[i] = items[j] if chance.random() < OWN else _another(items[i], chance)
     return items
 
 

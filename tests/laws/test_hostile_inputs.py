@@ -155,7 +155,7 @@ def fuzzed(count: int) -> settings:
         database=None,
         derandomize=True,
         phases=[Phase.generate],
-        suppress_health_check=(HealthCheck.too_slow, HealthCheck.filter_too_much, HealthCheck.data_too_large),
+        suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
     )
 
 
@@ -215,7 +215,8 @@ def test_scenario(workplace: Path, text: str) -> None:
 @given(text=st.one_of([mutated(plan) for plan in PLANS]))
 def test_plan(workplace: Path, text: str) -> None:
     plan = "".join(f"\\U{ord(c):08x}" if c in "'\"\\" or not c.isprintable() else c for c in text)
-    scenario = f'situation = "s.ttl"\nplan = "{plan}"\nduration = 0.05\nparticles = 300\n[parameters]\nTime = 0.02\n'
+    scenario = f'situation = "s.ttl"\nplan = "{plan}"\nduration = 0.05\nparticles = 300\n'
+    scenario += "[parameters]\nTime = 0.02\n" if "Time" in text else ""
     write(workplace, scenario, PREFIX + SITUATION)
     check(workplace, ["project", "s.toml"])
 

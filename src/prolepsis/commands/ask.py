@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import json
 import os
 from typing import Any
 
-from prolepsis.commands.output import add_command, bindings, plain, warn_unchecked
+from prolepsis.commands.output import add_command, bindings, json_line, plain, warn_unchecked
 from prolepsis.errors import InputError
 
 EXAMPLE = """\
@@ -44,7 +43,7 @@ def run(given: argparse.Namespace) -> int:
     warn_unchecked(timeline.domain.unchecked)
     for answer in answers:
         if given.json:
-            print(json.dumps({name: plain(value) for name, value in answer.items()}, ensure_ascii=False))
+            print(json_line({name: plain(value) for name, value in answer.items()}))
         else:
             print(bindings(answer))
     if not answers and not given.json:

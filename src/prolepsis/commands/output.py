@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 import signal
 import sys
 import threading
@@ -127,6 +128,12 @@ def warn_unchecked(why: str) -> None:
     """Say that an answer rests on knowledge that was not checked, if it does."""
     if why:
         warnings.warn(f"unchecked: {why}", Note, stacklevel=2)
+
+
+def json_line(row: Mapping[str, Any]) -> str:
+    """Return a row as one line of JSON, in letters that standard output knows."""
+    known = (sys.stdout.encoding or "").lower().replace("-", "") == "utf8"
+    return json.dumps(row, ensure_ascii=not known)
 
 
 def plain(value: Value) -> Any:

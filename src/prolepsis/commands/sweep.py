@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +10,7 @@ from prolepsis.commands.output import (
     add_command,
     add_progress,
     bindings,
+    json_line,
     plain,
     progress_line,
     settings,
@@ -131,7 +131,7 @@ def _notes(row: Row) -> list[str]:
 
 def as_json(outcomes: Outcomes) -> str:
     """Return one JSON object a row."""
-    return "\n".join(json.dumps(_plain(row), ensure_ascii=False) for row in outcomes.rows)
+    return "\n".join(json_line(_plain(row)) for row in outcomes.rows)
 
 
 def _plain(row: Row) -> dict[str, Any]:

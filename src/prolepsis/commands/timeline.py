@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from prolepsis.commands.output import add_command, table, warn_unchecked
+from prolepsis.commands.output import add_command, json_line, table, warn_unchecked
 
 if TYPE_CHECKING:
     from prolepsis.timeline import Timeline
@@ -35,7 +34,7 @@ def run(given: argparse.Namespace) -> int:
     warn_unchecked(timeline.domain.unchecked)
     if given.json:
         for row in timeline.to_json():
-            print(json.dumps(row, ensure_ascii=False))
+            print(json_line(row))
     else:
         print(table(rows(timeline)))
     return 0
