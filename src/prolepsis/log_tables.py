@@ -50,18 +50,20 @@ def write_table(file: Path, columns: Columns, kinds: Kinds | None = None) -> Non
     floats = [name for name, column in columns.items() if column.dtype.kind == "f"]
     # Neighbours in a long column of 32-bit whole numbers differ by little.
     steps = [name for name, column in columns.items() if column.dtype == np.int32]
-    writer.write_table(
-        table,
-        file,
-        row_group_size=max(1, table.num_rows),
-        compression="zstd",
-        use_dictionary=[name for name in columns if name not in (*floats, *steps)],
-        use_byte_stream_split=floats,
-        column_encoding=dict.fromkeys(steps, "DELTA_BINARY_PACKED") or None,
-        write_page_checksum=True,
-        write_statistics=False,
-        store_schema=False,
-    )
+    # Arrow itself opens no file whose name is not UTF-8.
+    with file.open("wb") as stream:
+        writer.write_table(
+            table,
+            stream,
+            row_group_size=max(1, table.num_rows),
+            compression="zstd",
+            use_dictionary=[name for name in columns if name not in (*floats, *steps)],
+            use_byte_stream_split=floats,
+            column_encoding=dict.fromkeys(steps, "DELTA_BINARY_PACKED") or None,
+            write_page_checksum=True,
+            write_statistics=False,
+            store_schema=False,
+        )
 
 
 def read_table(file: Path, *allowed: Kinds) -> dict[str, npt.NDArray[Any]]:
@@ -75,7 +77,10 @@ def read_table(file: Path, *allowed: Kinds) -> dict[str, npt.NDArray[Any]]:
         LogError: If the file is no such table, or would be too large in memory.
     """
     try:
-        with cast(Any, parquet).ParquetFile(file, page_checksum_verification=True) as opened:
+        with (
+            file.open("rb") as stream,
+            cast(Any, parquet).ParquetFile(stream, page_checksum_verification=True) as opened,
+        ):
             _check_size(file, opened, allowed)
             table = opened.read(use_threads=False)
     except (OSError, MemoryError, cast(Any, arrow).ArrowException) as error:

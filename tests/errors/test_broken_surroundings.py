@@ -119,3 +119,15 @@ def test_an_interruption_that_a_library_makes_an_error_of_its_own_is_one(saved: 
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=saved, check=False)
     assert (done.returncode, done.stderr) == (130, "prolepsis: interrupted; nothing was written\n")
+
+
+def test_a_folder_whose_name_is_not_utf_8_is_written_and_read(saved: Path) -> None:
+    name = os.fsdecode(b"not\xffutf8")
+    assert prolepsis(saved, "project", "s.toml", "--out", name)[::2] == (0, "")
+    assert prolepsis(saved, "ask", name, "holds(supports(floor, _), _)") == (0, "yes\n", "")
+    assert prolepsis(saved, "render", name, "--strip", f"{name}.png", "--count", "1")[::2] == (0, "")
+    assert prolepsis(saved, "render", name, "--frames", f"{name}.frames", "--count", "1")[::2] == (0, "")
+    (saved / name / "s.toml").write_text("situation = 's.ttl'")
+    status, out, errors = prolepsis(saved, "project", f"{name}/s.toml")
+    assert (status, out) == (2, "")
+    assert errors == "prolepsis: not\\udcffutf8/s.toml: the name of the scenario is not UTF-8 text; rename it\n"
