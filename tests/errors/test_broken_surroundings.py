@@ -131,3 +131,10 @@ def test_a_folder_whose_name_is_not_utf_8_is_written_and_read(saved: Path) -> No
     status, out, errors = prolepsis(saved, "project", f"{name}/s.toml")
     assert (status, out) == (2, "")
     assert errors == "prolepsis: not\\udcffutf8/s.toml: the name of the scenario is not UTF-8 text; rename it\n"
+
+
+def test_pictures_that_cannot_be_saved_are_refused(saved: Path) -> None:
+    status, out, errors = prolepsis(saved, "render", "run", "--frames", "x" * 300, "--count", "1")
+    assert (status, out) == (2, "")
+    assert errors.endswith("File name too long\n")
+    assert len(errors.splitlines()) == 1

@@ -1,6 +1,6 @@
 """Whatever is given to the command line, it answers or refuses: never a traceback, a flood, or a file left behind.
 
-2,000 inputs are valid ones with some mutations; the same each time, unless PROLEPSIS_FUZZ_SEED chooses others.
+2,000 inputs are valid ones with some mutations: the same each time, unless PROLEPSIS_FUZZ_SEED is set to choose others.
 """
 
 from __future__ import annotations
@@ -160,11 +160,6 @@ def fuzzed(count: int) -> settings:
 
 
 def check(place: Path, arguments: list[str]) -> None:
-    if os.environ.get("FUZZ_TRACE"):
-        Path(os.environ["FUZZ_TRACE"]).write_text(
-            repr([(place / n).read_bytes() for n in ("s.toml", "s.ttl")]) + repr(arguments)
-        )
-    """Run a command line in this process and look at what it did."""
     shutil.rmtree(place / "out", ignore_errors=True)
     before, began = listing(place), time.process_time()
     errors = place / "errors"
@@ -178,9 +173,6 @@ def check(place: Path, arguments: list[str]) -> None:
         finally:
             sys.stdout, sys.stderr = kept
     work = time.process_time() - began
-    if os.environ.get("FUZZ_LOG"):
-        with open(os.environ["FUZZ_LOG"], "a") as log:
-            log.write(f"{arguments[0]} {status} {work:.1f} {errors.read_text(encoding='utf-8')[:200]!r}\n")
     look_at(status, errors.read_text(encoding="utf-8"))
     assert work < LONGEST_WORK, f"{work:.0f} s of work"
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 < MOST_MEMORY

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Generator, Iterator, Sequence
+from contextlib import closing, suppress
 from pathlib import Path
 from typing import Any, cast
 
@@ -72,8 +72,9 @@ def render_video(
         )
         writer.send(None)
         try:
-            for picture in _report(pictures(log, ticks, size=size), len(ticks), progress):
-                writer.send(picture)
+            with closing(pictures(log, ticks, size=size)) as shown:
+                for picture in _report(shown, len(ticks), progress):
+                    writer.send(picture)
         finally:
             writer.close()
 
@@ -96,9 +97,9 @@ def render_frames(
     ticks = _evenly(log, count, MOST_FRAMES)
     _refuse_size(size)
     names: list[str] = []
-    with written_aside(target, _our_frames) as aside:
+    with written_aside(target, _our_frames) as aside, closing(pictures(log, ticks, size=size)) as shown:
         aside.mkdir()
-        for i, picture in enumerate(_report(pictures(log, ticks, size=size), len(ticks), progress)):
+        for i, picture in enumerate(_report(shown, len(ticks), progress)):
             names.append(f"frame{i:04d}_{log.time[ticks[i]]:.3f}s.png")
             _save(picture, aside / names[-1])
     return [target / name for name in names]
@@ -145,10 +146,11 @@ def render_strip(
     if len(ticks) * width * height > MOST_PIXELS:
         raise InputError(f"a strip of {len(ticks)} pictures of {width} by {height} pixels: allowed: {MOST_PIXELS:g}")
     left, top = round(part[0] * whole[0]), round(part[1] * whole[1])
-    shown = [
-        _with_time(picture[top : top + height, left : left + width], float(log.time[tick]))
-        for tick, picture in zip(ticks, pictures(log, ticks, size=whole, **view), strict=True)
-    ]
+    with closing(pictures(log, ticks, size=whole, **view)) as made:
+        shown = [
+            _with_time(picture[top : top + height, left : left + width], float(log.time[tick]))
+            for tick, picture in zip(ticks, made, strict=True)
+        ]
     strip = Image.new("RGB", (len(shown) * (width + 4) - 4, height), "white")
     for i, picture in enumerate(shown):
         strip.paste(Image.fromarray(picture), (i * (width + 4), 0))
@@ -156,8 +158,11 @@ def render_strip(
         strip.save(aside)
 
 
-def pictures(log: Log, ticks: Sequence[int], *, size: tuple[int, int], **view: float) -> Iterator[Picture]:
-    """Yield a picture of ``log`` at each of ``ticks``, all from one fixed camera."""
+def pictures(log: Log, ticks: Sequence[int], *, size: tuple[int, int], **view: float) -> Generator[Picture]:
+    """Yield a picture of ``log`` at each of ``ticks``, all from one fixed camera.
+
+    Close it when an error leaves pictures over: OpenGL that is still open when Python ends takes the process down.
+    """
     if opened_by_parent():
         from prolepsis.report.forked import pictures_elsewhere
 
