@@ -51,6 +51,9 @@ def alike(facts: Iterable[Axiom], terms: Iterable[Axiom]) -> Alike:
         found: dict[str, tuple[str, ...]] = {}
         hubs = people.hubs(counted)
         for group in people.groups(hubs):
+            if group <= hubs:
+                # Those that are related to it may count it.
+                continue
             members = people.in_order(group, {hub: f"at {hub}" for hub in hubs})
             first = found.setdefault(people.told(members), members)
             stands_for |= dict(zip(members, first, strict=True))

@@ -348,4 +348,4 @@ def is_whole(chaining: Chaining) -> bool:
             return False
     except StepsError:
         return False
-    return chaining.structure.is_model_of(chaining.axioms)
+    return chaining.clash is None and chaining.structure.is_model_of(chaining.axioms)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from prolepsis.errors import KnowledgeError, UndecidedError
 from prolepsis.knowledge.axioms import Axiom
+from prolepsis.knowledge.counting import OverlookedError, counted_on_the_right
 
 if TYPE_CHECKING:
     from pyhermit import Reasoner
@@ -41,7 +42,7 @@ def ontology_text(axioms: tuple[Axiom, ...]) -> str:
     texts = [
         a.text for a in axioms if not a.text.startswith(_DECLARATION) or mentioned.issuperset(_IRI.findall(a.text))
     ]
-    return "Ontology(\n" + "\n".join(texts) + "\n)\n"
+    return "Ontology(\n" + "\n".join(counted_on_the_right(texts)) + "\n)\n"
 
 
 class Budget:
@@ -104,7 +105,10 @@ def is_consistent(axioms: tuple[Axiom, ...], budget: Budget | None = None) -> bo
         f"contradicts itself; allow more with the environment variable {LIMIT_VARIABLE}, or write the new axioms "
         f"more simply"
     )
-    text = ontology_text(axioms)
+    try:
+        text = ontology_text(axioms)
+    except OverlookedError:
+        raise UndecidedError("the reasoner overlooks a count of two or more within a condition; say it otherwise") from None
     if budget.left <= 0.0 or len(text) > budget.each * CHARACTERS:
         raise undecided
     # Importing the reasoner takes longer than all the rest of loading a knowledge base.

@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
-from prolepsis.knowledge.axioms import THING
+from prolepsis.knowledge.axioms import NOTHING, THING
 
 Tree = str | tuple["Tree", ...]
 """An axiom or expression: an IRI, or a functor with its arguments."""
@@ -65,7 +65,8 @@ class Structure:
         """
         match expression:
             case str(name):
-                return name == THING[0] or name in self.types[node]
+                # What belongs to nothing is a contradiction, and no member that could make an axiom true.
+                return name == THING[0] or (name != NOTHING[0] and name in self.types[node])
             case ("ObjectIntersectionOf", *parts):
                 return all(self.belongs(node, part) for part in parts)
             case ("ObjectUnionOf", *parts):
