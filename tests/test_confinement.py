@@ -8,6 +8,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import threading
 import time
 import warnings
 from contextlib import suppress
@@ -195,6 +196,36 @@ def _runs(number: int) -> bool:
     except OSError:
         return False
     return status.rpartition(")")[2].split()[0] != "Z"
+
+
+def test_prolog_ends_with_the_program_while_it_is_busy() -> None:
+    code = (
+        "from prolepsis.logic.process import PrologProcess\n"
+        "process = PrologProcess(); print(process.process_id, flush=True)\n"
+        "process.call('findall(X, between(1, 99999999, X), L), length(L, Reply)', 600.0)"
+    )
+    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) as program:
+        assert program.stdout is not None
+        number = int(program.stdout.readline())
+        time.sleep(0.5)
+        program.kill()
+    for _ in range(1000):
+        if not _runs(number):
+            break
+        time.sleep(0.01)
+    assert not _runs(number)
+
+
+def test_prolog_outlives_the_thread_that_asked_first() -> None:
+    session, egg = Session(), timeline()
+    thread = threading.Thread(target=session.ask, args=(egg, "true"))
+    thread.start()
+    thread.join()
+    process = session._process  # pyright: ignore[reportPrivateUsage]
+    time.sleep(0.2)
+    assert session.ask(egg, "holds(broken(X), _)") == [{"X": "egg1"}]
+    assert session._process is process  # pyright: ignore[reportPrivateUsage]
+    session.close()
 
 
 def test_folders_of_killed_programs_are_cleaned_by_the_next() -> None:

@@ -40,7 +40,15 @@ def check_replaceable(folder: str | Path, ours: Ours) -> Path:
     Raises:
         InputError: If something else is there, or it could not be written.
     """
+    if not str(folder):
+        raise InputError("the folder to write has no name")
     path = Path(os.path.realpath(folder))
+    try:
+        path.with_name(f".{path.name}.unsaved-longest").lstat()
+    except FileNotFoundError:
+        pass
+    except OSError as error:
+        raise InputError(f"{folder}: cannot be written: {error.strerror}") from None
     put_back(path)
     if path.exists():
         if not path.is_dir():

@@ -21,7 +21,11 @@ SEAL = b"prolepsis cache 1 "
 
 def cache_root() -> Path:
     """Return the folder of everything that is kept for the next time."""
-    return Path(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")) / "prolepsis"
+    for folder in (os.environ.get("XDG_CACHE_HOME", ""), os.path.expanduser("~/.cache")):
+        if os.path.isabs(folder) and folder != "/.cache":
+            return Path(folder) / "prolepsis"
+    # Who has no home keeps nothing: nobody can write there.
+    return Path(os.devnull) / "prolepsis"
 
 
 def read_kept(file: Path) -> bytes | None:

@@ -116,4 +116,5 @@ def sources_digest() -> str:
 
 
 def _folder() -> Path:
-    return Path(os.environ.get("NUMBA_CACHE_DIR") or cache_root()) / f"kernels-{sources_digest()[:16]}"
+    named = os.environ.get("NUMBA_CACHE_DIR", "")
+    return (Path(named) if os.path.isabs(named) else cache_root()) / f"kernels-{sources_digest()[:16]}"

@@ -14,6 +14,8 @@ import numpy.typing as npt
 from prolepsis.log import Log
 from prolepsis.things import GEOM_TYPES, Shape, Thing
 
+MOST_GEOMS, MOST_POINTS = 2_000, 10_000
+"""Solids of a thing, and points of its profile."""
 FARTHEST = 1e10
 """MuJoCo calls a coordinate beyond this unstable (``mjMAXVAL``) [m]."""
 UNIT = 1e-3
@@ -82,6 +84,8 @@ def _check_things(things: tuple[Thing, ...]) -> None:
 
 
 def _check_shape(name: str, shape: Shape) -> None:
+    if len(shape.geoms) > MOST_GEOMS or len(shape.profile or ()) > MOST_POINTS:
+        raise ValueError(f"{name}: has more than {MOST_GEOMS} geoms or {MOST_POINTS} points of a profile")
     for geom in shape.geoms:
         if geom.type not in GEOM_TYPES:
             raise ValueError(f"{name}: no geom of type {geom.type!r}; known: {', '.join(GEOM_TYPES)}")

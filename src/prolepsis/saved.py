@@ -12,6 +12,8 @@ from prolepsis.sealed import read_json, read_sealed, to_json
 from prolepsis.timeline import Timeline
 
 DOMAIN, TIMELINE = "domain.json", "timeline.json"
+MOST_FACTS = 250_000
+"""Facts of a timeline; its reading would take more than ten seconds."""
 LONGEST = 1e9
 """No run is as long [s]: thirty years."""
 
@@ -37,6 +39,8 @@ def read_timeline_files(path: Path) -> Timeline:
         if not isinstance(told, dict) or not isinstance(told.get("facts"), list):  # pyright: ignore[reportUnknownMemberType]
             raise ValueError(f"{TIMELINE} must be an object with dt, duration and facts")
         table = cast("dict[str, Any]", told)
+        if len(table["facts"]) > MOST_FACTS:
+            raise ValueError(f"{TIMELINE} has {len(table['facts'])} facts; at most {MOST_FACTS} are read")
         dt, duration = _time(table.get("dt"), 1e-9), _time(table.get("duration"), 0.0)
         return Timeline.from_json(table["facts"], dt=dt, duration=duration, domain=domain)
     except FileNotFoundError as error:

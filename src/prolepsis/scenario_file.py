@@ -28,6 +28,9 @@ Number = StrictInt | StrictFloat
 
 LONGEST_FILE = 1_000_000
 """Longest scenario file [bytes]."""
+MOST_DOTS = 50
+"""Parts of a key; the reader of TOML takes the square of them."""
+_LONG_KEY = re.compile(rf"(?:[\w-]+[ \t]*\.[ \t]*){{{MOST_DOTS}}}")
 DEFAULT_PARTICLES = 2000
 """Particles of the largest liquid, if nothing is said: some 5 mm apart in a cup."""
 
@@ -63,6 +66,8 @@ def read_file(path: Path) -> ScenarioFile:
         ScenarioError: If it is missing or wrong.
     """
     text = read_text(path, "scenario", most=LONGEST_FILE, error=ScenarioError)
+    if _LONG_KEY.search(text):
+        raise ScenarioError(f"{path}: TOML syntax: a key of more than {MOST_DOTS} parts")
     try:
         table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:

@@ -213,6 +213,8 @@ def _format(value: Value, limit: int) -> str:
             return _format_partial_list(value)
         case Term(functor=name, args=arguments):
             return f"{format_atom(name)}(" + ",".join(_format(argument, 999) for argument in arguments) + ")"
+        case _:  # pyright: ignore[reportUnnecessaryComparison]
+            raise TypeError(f"no term: {type(value).__name__}")
     return f"({text})" if priority > limit else text
 
 

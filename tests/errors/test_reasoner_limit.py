@@ -69,7 +69,7 @@ def test_an_unchecked_projection_says_so_on_standard_error_and_wherever_it_is_op
     assert main(["project", str(tmp_path / "toy.toml"), "--out", str(tmp_path / "out")]) == 0
     for command in (["timeline", str(tmp_path / "out")], ["ask", str(tmp_path / "out"), "instance_of(toy1, 'Toy')"]):
         said = capfd.readouterr().err
-        assert said.startswith("prolepsis: warning: unchecked: the reasoner") and said.count("\n") == 1
+        assert said.startswith("prolepsis: note: unchecked: the reasoner") and said.count("\n") == 1
         assert len(said) <= 300
         assert main(command) == 0
     assert Projection.load(tmp_path / "out").timeline.domain.unchecked in said

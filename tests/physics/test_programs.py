@@ -154,7 +154,7 @@ REFUSED = [
     ("lift(hand1, high)", PlanError, r"must be a number \[m\], not high"),
     ("carry(hand1, 0.3, 2.0)", PlanError, r"must be a list of three lengths .*, such as \[0.2, 0, 0.1\]"),
     ("grasp(hand1, table1, 5)", PlanError, "table1 is not graspable: .* mm wide between the pads, hand1 opens 90 mm"),
-    ("tilt(hand1, 90)", PlanError, r"must be at most 3.142 rad in size, not 90; degrees need a parameter such as"),
+    ("tilt(hand1, 90)", PlanError, r"must be at most 3.1416 rad in size, not 90; degrees need a parameter such as"),
     ("tilt(hand1, 1, 30)", PlanError, r"rate of .* must be at most 6 rad/s in size, not 30; degrees need a param"),
     ("lift(hand1, 0.1, 1, 50)", PlanError, r"acceleration of .* must be at most 30 m/s2 in size, not 50"),
     ("wipe(hand1, egg1, table1, [0.1, 0, 0], 2, 200)", PlanError, "is 200 N, hand1 can do 150 N at most"),

@@ -123,7 +123,7 @@ def test_a_thing_with_nothing_under_its_place_is_refused() -> None:
 
 
 def test_things_that_rest_on_each_other_in_a_circle_are_refused() -> None:
-    with pytest.raises(KnowledgeError, match="block1, block2 rest on each other in a circle"):
+    with pytest.raises(KnowledgeError, match="block1, block2 rest on or are in each other, in a circle"):
         scene(":block1 a :Block ; :on :block2 . :block2 a :Block ; :on :block1 .")
 
 

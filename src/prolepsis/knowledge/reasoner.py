@@ -108,7 +108,9 @@ def is_consistent(axioms: tuple[Axiom, ...], budget: Budget | None = None) -> bo
     try:
         text = ontology_text(axioms)
     except OverlookedError:
-        raise UndecidedError("the reasoner overlooks a count of two or more within a condition; say it otherwise") from None
+        raise UndecidedError(
+            "the reasoner overlooks a count of two or more within a condition; say it otherwise"
+        ) from None
     if budget.left <= 0.0 or len(text) > budget.each * CHARACTERS:
         raise undecided
     # Importing the reasoner takes longer than all the rest of loading a knowledge base.

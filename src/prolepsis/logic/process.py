@@ -14,11 +14,13 @@ import fcntl
 import json
 import multiprocessing.util
 import os
+import queue
 import select
 import shutil
 import socket
 import subprocess
 import tempfile
+import threading
 import time
 import warnings
 from pathlib import Path
@@ -151,9 +153,7 @@ class PrologProcess:
         words = command(program, arguments, walls=walls, folder=self.folder, code=PROLOG_FILES, memory=PROCESS_LIMIT)
         with tempfile.TemporaryFile() as said:
             try:
-                self._process = subprocess.Popen(
-                    words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=said, start_new_session=True
-                )
+                self._process, self._ended = _started(words, said)
             except OSError as error:
                 raise MissingToolError(f"{program} cannot be started: {error.strerror}") from None
             try:
@@ -226,6 +226,7 @@ class PrologProcess:
         self._close_ends()
         self._process.kill()
         self._process.wait()
+        self._ended.set()
 
     def _remove(self) -> None:
         shutil.rmtree(self.folder, ignore_errors=True)
@@ -240,6 +241,32 @@ class PrologProcess:
         for stream in (self._process.stdin, self._process.stdout):
             if stream is not None:
                 stream.close()
+
+
+def _started(words: list[str], said: IO[bytes]) -> tuple[subprocess.Popen[bytes], threading.Event]:
+    """Start a process that is killed when this program ends, and return it with the event that is set when it ended.
+
+    The system kills it when the *thread* that started it ends. So one of its own does, which waits for the event.
+    """
+    made: queue.SimpleQueue[subprocess.Popen[bytes] | OSError] = queue.SimpleQueue()
+    ended = threading.Event()
+
+    def start() -> None:
+        try:
+            process = subprocess.Popen(
+                words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=said, start_new_session=True
+            )
+        except OSError as error:
+            made.put(error)
+            return
+        made.put(process)
+        ended.wait()
+
+    threading.Thread(target=start, name="prolepsis-prolog", daemon=True).start()
+    process = made.get()
+    if isinstance(process, OSError):
+        raise process
+    return process, ended
 
 
 def _must_be_confined() -> bool:

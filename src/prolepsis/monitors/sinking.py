@@ -17,6 +17,8 @@ SHARE = 0.1
 LEAST_LIMIT, MOST_LIMIT = 0.002, 0.01
 """But by 2 mm however thin it is, and by 10 mm at most [m]: contacts reach their full stiffness within the first
 millimetre, and sheets are thinner than that."""
+SOFT, SOFT_SHARE = 1.0e6, 0.5
+"""What is softer than rubber, by Young's modulus [Pa], may be pressed in by half of its size [1]: a sponge is."""
 LASTING = 0.1
 """It must stay so for this time [s]; an impact is over sooner."""
 
@@ -68,7 +70,7 @@ def sinkings(things: Sequence[Thing], overlaps: Overlaps, matters: Sequence[Matt
         rows = sorted((matter.row(int(key[1])), matter.row(int(key[2]))), key=lambda row: bool(matter.fixed[row]))
         if any(things[int(matter.thing[row])].roles & HIDDEN_ROLES for row in rows):
             continue
-        limit = min(_limit(matter.solid(row, things)) for row in rows)
+        limit = _limit([(things[int(matter.thing[row])], matter.solid(row, things)) for row in rows])
         chosen = np.flatnonzero((pair_of.ravel() == number) & (overlaps.depth > limit))
         if len(chosen) < needed:
             continue
@@ -86,6 +88,10 @@ def sinkings(things: Sequence[Thing], overlaps: Overlaps, matters: Sequence[Matt
                 )
 
 
-def _limit(geom: Geom) -> float:
-    size = np.inf if geom.type == "plane" else 2.0 * solid_of(geom).half_width
-    return min(max(SHARE * size, LEAST_LIMIT), MOST_LIMIT)
+def _limit(pair: Sequence[tuple[Thing, Geom]]) -> float:
+    """Return how deep two solids may stay in each other [m]: what is soft gives way, whatever presses it."""
+    sizes = [np.inf if geom.type == "plane" else 2.0 * solid_of(geom).half_width for _, geom in pair]
+    soft = [thing.quantities.get("youngsModulus", np.inf) < SOFT for thing, _ in pair]
+    if any(soft):
+        return max(SOFT_SHARE * size for size, gives_way in zip(sizes, soft, strict=True) if gives_way)
+    return min(min(max(SHARE * size, LEAST_LIMIT), MOST_LIMIT) for size in sizes)

@@ -133,7 +133,7 @@ def action(
     """Register the decorated generator function as an action of its name; its docstring's first line is for users."""
 
     def register(behave: Callable[..., Behaviour]) -> Callable[..., Behaviour]:
-        doc = (behave.__doc__ or "").strip().splitlines()[0]
+        doc = (behave.__doc__ or "").strip().partition("\n")[0]  # `python -OO` leaves none
         ACTIONS[behave.__name__] = ActionSpec(
             name=behave.__name__, parameters=parameters, doc=doc, behave=behave, check=check, moves=moves
         )

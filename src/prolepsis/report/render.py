@@ -68,7 +68,7 @@ def render_video(
     ticks = _ticks(log, np.arange(count) * speed / FRAME_RATE)
     with written_aside(target) as aside:
         writer: Any = cast(Any, imageio_ffmpeg).write_frames(
-            str(aside), size, fps=FRAME_RATE, codec="libx264", quality=8, macro_block_size=2
+            str(aside), size, fps=FRAME_RATE, codec="libx264", quality=8, macro_block_size=2, ffmpeg_log_level="quiet"
         )
         writer.send(None)
         try:

@@ -25,6 +25,7 @@ KEPT_VARIABLES = ("LD_LIBRARY_PATH", "SWI_HOME_DIR", "TZ")
 LONGEST_FILE = 1 << 20
 """Longest file that it may write, which is what it says on standard error [bytes]."""
 OPEN_FILES = 512
+PR_SET_PDEATHSIG = 1
 MOST_LIBRARIES = 1000
 """Most libraries in the folders of LD_LIBRARY_PATH that are made readable, one by one."""
 
@@ -53,6 +54,7 @@ def command(
         "folder": str(folder),
         "code": str(code),
         "memory": memory,
+        "parent": os.getpid(),
     }
     root = str(Path(__file__).resolve().parents[3])
     return [_python(), "-I", "-S", "-c", _ENTER, root, json.dumps(plan)]
@@ -68,6 +70,10 @@ def main() -> None:
     """Put up the walls that the command line asks for, and become the program. A wall that fails ends it."""
     plan: dict[str, Any] = json.loads(sys.argv[1])
     program, folder, code = plan["program"], plan["folder"], plan["code"]
+    # Prolog notices that its standard input is closed only when its threads let it: what is busy ends at once.
+    landlock.libc().prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
+    if os.getppid() != plan["parent"]:
+        sys.exit("the program that started this is gone")
     _limit(resource.RLIMIT_AS, plan["memory"])
     _limit(resource.RLIMIT_CORE, 0)
     _limit(resource.RLIMIT_FSIZE, LONGEST_FILE)
@@ -99,7 +105,7 @@ def main() -> None:
 
 
 def _become_inside(plan: dict[str, Any], readable: Sequence[str], environment: dict[str, str]) -> None:
-    words = [plan["bubblewrap"], "--unshare-all", "--as-pid-1", "--new-session", "--dev", "/dev"]
+    words = [plan["bubblewrap"], "--unshare-all", "--as-pid-1", "--die-with-parent", "--new-session", "--dev", "/dev"]
     for path in readable:
         if os.path.islink(path):
             words += ["--symlink", os.readlink(path), path]
