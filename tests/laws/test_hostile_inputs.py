@@ -271,9 +271,12 @@ def test_arguments(workplace: Path, line: str, data: st.DataObject) -> None:
 @given(text=mutated(SCENARIO), turtle=mutated(TURTLES["egg"]))
 def test_process_of_its_own(workplace: Path, text: str, turtle: str) -> None:
     write(workplace, text, PREFIX + turtle)
-    before = listing(workplace)
+    before, began = listing(workplace), resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run(
         [sys.executable, "-m", "prolepsis", "project", "s.toml"], capture_output=True, timeout=600, check=False
     )
+    ended = resource.getrusage(resource.RUSAGE_CHILDREN)
     look_at(done.returncode, done.stderr.decode())
+    assert ended.ru_utime + ended.ru_stime - began.ru_utime - began.ru_stime < LONGEST_WORK
+    assert ended.ru_maxrss * 1024 < MOST_MEMORY
     assert listing(workplace) == before
