@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import os
 import re
+import select
 import shutil
 import subprocess
 import sys
 import warnings
 from collections.abc import Callable
 from importlib.metadata import PackageNotFoundError, requires, version
-from typing import Any, cast
+from typing import IO, Any, cast
 
 from prolepsis.commands.output import add_command, table
 from prolepsis.errors import MissingToolError
@@ -86,10 +88,14 @@ def _prolog() -> str:
     if program is None:
         raise _Missing("not found on PATH", cure)
     try:
-        done = subprocess.run([program, "--version"], capture_output=True, text=True, timeout=20, check=True)
-    except (OSError, subprocess.SubprocessError) as error:
-        raise _Missing(f"{program} does not start ({error})", cure) from None
-    match = re.search(r"version (\d+)\.(\d+)\.(\d+)", done.stdout)
+        with subprocess.Popen([program, "--version"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as asked:
+            stream = cast("IO[bytes]", asked.stdout)
+            ready = select.select([stream], [], [], 20.0)[0]
+            said = os.read(stream.fileno(), 4096).decode(errors="replace") if ready else ""
+            asked.kill()
+    except OSError as error:
+        raise _Missing(f"{program} does not start ({error.strerror})", cure) from None
+    match = re.search(r"version (\d+)\.(\d+)\.(\d+)", said)
     if match is None:
         raise _Missing(f"{program} tells no version", cure)
     found = tuple(map(int, match.groups()))
