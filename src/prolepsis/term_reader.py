@@ -15,7 +15,7 @@ DEEPEST = 150
 TOO_DEEP = f"at most {DEEPEST} levels of nesting"
 LAST_CHARACTER = 0x10FFFF
 """Code of Unicode's last character."""
-SHOWN = 120
+SHOWN = 80
 """Most characters of the text that a message shows."""
 
 _LAYOUT = re.compile(r"(?:\s+|%[^\n]*|/\*.*?\*/)*", re.DOTALL)
