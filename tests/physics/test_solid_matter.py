@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from pathlib import Path
 
@@ -56,6 +57,40 @@ def test_what_crosses_solid_matter_is_no_answer(what: str) -> None:
     turtle, duration, obstacle = CROSSED[what]
     with pytest.raises(InvalidSimulationError, match=rf"at [0-9.]+ s b has gone into {obstacle} or through it"):
         run(turtle, duration=duration)
+
+
+HOUSEHOLD = {
+    "coin": block("b", (0.024, 0.024, 0.002), ":z {!r}"),
+    "cube of 1 cm": block("b", (0.01, 0.01, 0.01), ":z {!r}"),
+    "cube of 5 cm": block("b", (0.05, 0.05, 0.05), ":z {!r}"),
+    "cup": ":b a :Cup ; :z {!r} . ",
+    "book": block("b", (0.24, 0.16, 0.03), ":z {!r} ; :mass 0.8"),
+}
+
+
+def dropped(what: str, below: str, height: float, max_step: float) -> float:
+    """Drop something and return where it ends [m]."""
+    top = 0.7 if below == TABLE else 0.0
+    duration = math.sqrt(2.0 * height / 9.81) + 0.2
+    log = run(below + HOUSEHOLD[what].format(top + height), duration=duration, max_step=max_step)
+    return float(log.poses[-1, [thing.name for thing in log.things].index("b"), 2]) - top
+
+
+@pytest.mark.parametrize("what", ["coin", "cup"])
+def test_what_falls_two_metres_in_a_household_comes_back(what: str) -> None:
+    assert dropped(what, TABLE, 2.0, 0.0005) > -0.002
+
+
+@pytest.mark.laws
+@pytest.mark.parametrize("max_step", [0.001, 0.0005, 0.00025])
+@pytest.mark.parametrize("height", [1.0, 2.0, 3.0])
+@pytest.mark.parametrize("below", [FLOOR, TABLE], ids=["floor", "table"])
+@pytest.mark.parametrize("what", HOUSEHOLD)
+def test_what_falls_in_a_household_comes_back_at_every_substep(
+    what: str, below: str, height: float, max_step: float
+) -> None:
+    assert dropped(what, below, height, max_step) > -0.002
+    assert dropped(what, below, height + 1e-6, max_step) > -0.002
 
 
 def test_what_begins_inside_solid_matter_is_refused() -> None:
