@@ -81,6 +81,12 @@ def test_what_falls_two_metres_in_a_household_comes_back(what: str) -> None:
     assert dropped(what, TABLE, 2.0, 0.0005) > -0.002
 
 
+@pytest.mark.parametrize("height", [1.0, 2.0])
+def test_shards_that_sink_into_the_floor_for_a_moment_come_back(height: float) -> None:
+    log = run(f"{FLOOR} :egg1 a :Egg ; :z {height!r} .", duration=math.sqrt(height / 4.905) + 0.2)
+    assert len(log.detachments.tick) > 0
+
+
 @pytest.mark.laws
 @pytest.mark.parametrize("max_step", [0.001, 0.0005, 0.00025])
 @pytest.mark.parametrize("height", [1.0, 2.0, 3.0])

@@ -9,7 +9,10 @@ from prolepsis.errors import GoalError, GoalLimitError, brief
 from prolepsis.logic.process import STACK_LIMIT
 from prolepsis.timeline import Timeline
 
-PERMITTED = "a query only reads the timeline and computes; it may not change facts, reach files or start programs"
+PERMITTED = (
+    "a query only reads the timeline and computes, with what docs/queries.md lists; it may not print, change facts, "
+    "reach files or start programs"
+)
 RELATIONS = (
     "before, after, meets, met_by, overlaps, overlapped_by, starts, started_by, during, contains, "
     "finishes, finished_by, equals"

@@ -54,7 +54,7 @@ def rule_refusal(reply: str, file: Path, *, text: str = "", limit: float = 0.0) 
         case "rule":
             return InputError(f"{line}: no rule: {_short(about)}; {FORM}, and nothing in it is executed")
         case "head":
-            return InputError(f"{line}: no event: {_short(about)}; {FORM}")
+            return InputError(f"{line}: no event or interval: {_short(about)}; {FORM}")
         case "taken":
             return InputError(f"{line}: {_short(about)} exists already; give the helper another name")
         case "known":

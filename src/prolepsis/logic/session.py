@@ -144,7 +144,7 @@ class Session:
         self, timeline: Timeline, goal: str, *, limit: int | None = None, time_limit: float = 10.0
     ) -> list[dict[str, Value]]:
         """Return the answers to ``goal`` about a timeline; see ``Timeline.ask``."""
-        goal = goal.strip()
+        goal = goal.strip().removeprefix("?-").lstrip()  # as docs and Prolog's own prompt write it
         _check_question(goal, limit, time_limit)
         try:
             reply = self._reply(timeline, goal, limit, time_limit)

@@ -81,8 +81,11 @@ parts(Head, Head, true).
 check_head(Taken, Line-Term, Name/Arity) :-
     parts_checked(Term, Line, Head),
     functor(Head, Name, Arity),
-    (   Head = chronicle(Event, _)
-    ->  check_event(Event, Line, Taken)
+    (   Head = chronicle(Event, Interval)
+    ->  (   ( var(Interval) ; Interval = _-_ )
+        ->  check_event(Event, Line, Taken)
+        ;   throw(refused_at(Line, event(Interval)))
+        )
     ;   functor(General, Name, Arity),
         ( allowed(Name/Arity) ; exists(General) )
     ->  throw(refused_at(Line, taken(Name/Arity)))
