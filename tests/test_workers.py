@@ -72,7 +72,9 @@ def test_a_task_that_fails_says_where() -> None:
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
 def test_however_a_process_ends_its_workers_end_too(tmp_path: Path, how: signal.Signals) -> None:
     code = (
-        "import sys; from prolepsis.workers import carry_out; from tests.tasks import tell_and_sleep\n"
+        "import signal, sys; from prolepsis.workers import carry_out; from tests.tasks import tell_and_sleep\n"
+        # What runs in the background of a shell begins deaf to Ctrl-C.
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         "list(carry_out(tell_and_sleep, [(name,) for name in sys.argv[1:]], 2))"
     )
     files = [tmp_path / "a", tmp_path / "b"]
@@ -82,7 +84,10 @@ def test_however_a_process_ends_its_workers_end_too(tmp_path: Path, how: signal.
         for file in files:
             until_it_exists(file)
         process.send_signal(how)
-        process.wait(timeout=60)
+        try:
+            process.wait(timeout=60)
+        finally:
+            process.kill()
     for file in files:
         until_it_is_gone(int(file.read_text()))
 

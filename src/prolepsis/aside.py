@@ -44,8 +44,8 @@ def check_replaceable(folder: str | Path, ours: Ours) -> Path:
         raise InputError("the folder to write has no name")
     path = Path(os.path.realpath(folder))
     try:
-        path.with_name(f".{path.name}.unsaved-longest").lstat()
-    except FileNotFoundError:
+        (path.parent / f".{path.name}.unsaved-longest").lstat()
+    except (FileNotFoundError, NotADirectoryError):  # what is above tells more
         pass
     except OSError as error:
         raise InputError(f"{folder}: cannot be written: {error.strerror}") from None
