@@ -112,16 +112,18 @@ class Session:
             write_run(timeline, file)
             process.call(f"runs:load_run({atom}, {format_atom(str(file))}), Reply = ok", LOAD_LIMIT)
             file.unlink()
-            self._add_rules(process, atom)
-            process.call(f"runs:finish_run({atom}), Reply = ok", LOAD_LIMIT)
         except (ProcessLost, FileNotFoundError):
             self._lose(process)
             raise ProcessLost("gone") from None
-        except GoalError:
-            raise
         except InputError as error:
             self._lose(process)
             raise InputError(f"the facts cannot be loaded: {error}") from None
+        self._add_rules(process, atom)
+        try:
+            process.call(f"runs:finish_run({atom}), Reply = ok", LOAD_LIMIT)
+        except ProcessLost:
+            self._lose(process)
+            raise
         self._loaded.add(name)
 
     def _add_rules(self, process: PrologProcess, run: str) -> None:

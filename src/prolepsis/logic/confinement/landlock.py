@@ -15,6 +15,7 @@ from typing import Any
 
 CREATE, ADD_RULE, RESTRICT = 444, 445, 446
 """Numbers of the system calls, the same on every machine."""
+PR_SET_NO_NEW_PRIVS = 38
 VERSION = 1
 PATH_BENEATH = 1
 
@@ -64,7 +65,7 @@ def confine(allowed: Mapping[str, int]) -> None:
         rule = struct.pack("=Qi", rights & files, place)
         _checked(libc().syscall(ADD_RULE, rules, PATH_BENEATH, rule, 0))
         os.close(place)
-    _checked(libc().prctl(38, 1, 0, 0, 0))  # PR_SET_NO_NEW_PRIVS
+    _checked(libc().prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0))
     _checked(libc().syscall(RESTRICT, rules, 0))
     os.close(rules)
 

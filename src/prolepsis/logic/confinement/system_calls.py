@@ -15,7 +15,7 @@ import os
 import platform
 import struct
 
-from prolepsis.logic.confinement.landlock import libc
+from prolepsis.logic.confinement.landlock import PR_SET_NO_NEW_PRIVS, libc
 
 ARCHITECTURES = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}
 """Machines whose calls are numbered below, with the number by which the kernel knows them."""
@@ -134,7 +134,7 @@ ALLOW, ERROR = 0x7FFF0000, 0x00050000
 NR, ARCH, ARGUMENTS = 0, 4, 16
 """Where the number, the architecture and the arguments of a call stand [bytes]."""
 
-PR_SET_NO_NEW_PRIVS, PR_SET_SECCOMP, SECCOMP_MODE_FILTER = 38, 22, 2
+PR_SET_SECCOMP, SECCOMP_MODE_FILTER = 22, 2
 SECCOMP, SECCOMP_GET_ACTION_AVAIL = {"x86_64": 317, "aarch64": 277}, 2
 
 
