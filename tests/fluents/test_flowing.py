@@ -155,6 +155,20 @@ def test_a_box_of_boards_with_a_gap_leaks() -> None:
     assert float(splash.evidence["over_rim"]) > 0.9
 
 
+def test_what_splashes_out_between_two_frames_went_over_the_rim_and_leaves_no_leak() -> None:
+    starts = poured(0.02, 0.04)[:200]
+    ends = puddle(0.15, 0, half=0.03)[:200]
+    way = np.repeat(starts[None], FRAMES, axis=0)
+    jump = FRAMES // 3 + np.arange(200) // 20
+    for p, frame in enumerate(jump):
+        way[frame : frame + 3, p] = [[0.07 + 0.03 * k, 0.0, HEIGHT + 0.05 - 0.05 * k] for k in range(3)]
+        way[frame + 3 :, p] = ends[p]
+    timeline = recognize(wet([table(), vessel()], {"liq1": way}, ticks=TICKS))
+    (out,) = timeline.select(type="flowingOut")
+    assert (out.evidence["over_rim"], out.evidence["through_holes"]) == (1.0, 0.0)
+    assert not timeline.ask("occurs(leaking(_, _), _)")
+
+
 def test_a_carried_cup_keeps_its_liquid_in_one_stretch_and_pours_nothing() -> None:
     points = poured(high=0.05)
     shift = np.linspace(0.0, 0.4, FRAMES)[:, None, None] * np.array([1.0, 0.0, 0.5])

@@ -136,12 +136,20 @@ def evidence_of(seen: Places, passages: Passages, during: BoolArray, stuff: int)
 def _way_out(
     observation: Observation, seen: Places, inside: Inside, passages: Passages, during: BoolArray
 ) -> dict[str, float | str]:
-    """Return the shares of what leaves over the rim and through holes."""
+    """Return the shares of what leaves over the rim and through holes.
+
+    What leaves fast is deep in the hollow in one frame and far above the rim in the next, so its whole way counts.
+    """
     frame, particle = passages.frame[during], passages.particle[during]
-    height = seen.particles.position[frame, particle].astype(np.float64) @ observation.up
-    rim = inside.brim[frame] - BELOW_RIM * seen.particles.spacing
     # Without a spill level nothing is kept, and whatever leaves runs out over the rim.
-    through = height < np.where(np.isnan(rim), -np.inf, rim)
+    rim = np.where(np.isnan(inside.brim), -np.inf, inside.brim - BELOW_RIM * seen.particles.spacing)
+    through = np.ones(len(frame), dtype=np.bool_)
+    at, going = frame.copy(), np.arange(len(frame))
+    while len(going):
+        now, who = at[going], particle[going]
+        through[going] &= seen.particles.position[now, who].astype(np.float64) @ observation.up < rim[now]
+        going = going[through[going] & ((now == frame[going]) | inside.near[now, who])]
+        at[going] += 1
     share = seen.share[particle]
     holes = float(share[through].sum() / share.sum())
     return {"over_rim": 1.0 - holes, "through_holes": holes}
@@ -151,7 +159,7 @@ def _state(observation: Observation, seen: Places, inside: Inside, start: int, e
     """Return how a vessel stands and how full it is.
 
     Returns:
-        Greatest tilt [rad], tilt at the beginning [rad], greatest fill [1].
+        Greatest tilt [rad], tilt at the beginning [rad], greatest fill [1] of what could keep anything as it stands.
     """
     poses = observation.log.poses[start:end, inside.unit, 3:]
     axis = rotate(poses, np.array([0.0, 0.0, 1.0])) @ observation.up
@@ -160,9 +168,11 @@ def _state(observation: Observation, seen: Places, inside: Inside, start: int, e
     held = inside.hollow[first:last] @ seen.particles.volume
     fullest = int(np.argmax(held)) + int(first)
     capacity = inside.capacity[fullest]() if fullest in inside.capacity else 0.0
-    # A liquid bulges over the rim of what is full to the brim.
-    fill = float(held.max()) / max(capacity, float(held.max())) if capacity > 0 else 0.0
-    return {"tilt": float(tilt.max()), "tilt_before": float(tilt[0]), "fill": fill}
+    evidence: dict[str, float | str] = {"tilt": float(tilt.max()), "tilt_before": float(tilt[0])}
+    if capacity > 0:
+        # A liquid bulges over the rim of what is full to the brim.
+        evidence["fill"] = float(held.max()) / max(capacity, float(held.max()))
+    return evidence
 
 
 def _sources(
