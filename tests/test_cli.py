@@ -90,6 +90,15 @@ def test_ask_limits_its_answers(saved: Path, capfd: pytest.CaptureFixture[str]) 
     assert "at least 1 answer" in capfd.readouterr().err
 
 
+def test_ask_answers_by_chronicles_of_a_file(saved: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    rules = tmp_path / "own.pl"
+    rules.write_text("chronicle(coming_down(X), T) :- occurs(falling(X), T).\n")
+    assert main(["ask", str(saved), "occurs(coming_down(X), _)", "--chronicles", str(rules)]) == 0
+    assert "X = egg1\n" in capfd.readouterr().out
+    assert main(["ask", str(saved), "occurs(coming_down(X), _)", "--chronicles", str(tmp_path / "no.pl")]) == 2
+    assert "no.pl: No such file" in capfd.readouterr().err
+
+
 def test_timeline_prints_facts_as_json(saved: Path, capfd: pytest.CaptureFixture[str]) -> None:
     assert main(["timeline", str(saved), "--json"]) == 0
     rows = [json.loads(line) for line in capfd.readouterr().out.splitlines()]

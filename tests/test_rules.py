@@ -77,6 +77,7 @@ def asked(tmp_path: Path, *rules: str, goal: str = "occurs(E, T)") -> list[objec
         ("", "holds no chronicle"),
         (HEAD + "true.", "chronicle shaking/1 needs a value before it is known, or leaves"),
         ("chronicle(shaking(a), 1-b).", "chronicle shaking/1 fails"),
+        ("chronicle(x(1), 0.5-0.25).", r"chronicle x/1 has an interval that ends before it starts, 0\.5-0\.25"),
         (HEAD + "X > 1, T = 0-1.", "chronicle shaking/1 needs a value"),
         ("chronicle(shaking(X), 0-1) :- between(1, inf, X).", "chronicle shaking/1 has 100,000 answers or more"),
         ("chronicle(shaking(L), 0-1) :- numlist(1, 100000000, L).", "chronicle shaking/1: memory limit"),

@@ -12,6 +12,7 @@ from prolepsis.errors import InputError
 EXAMPLE = """\
   prolepsis ask out/drop 'holds(F, T), objOf(F, egg1)'
   prolepsis ask out/drop 'occurs(falling(X), T1), after(T2, T1), holds(broken(X), T2)' --json
+  prolepsis ask out/drop 'occurs(shattering(X, Y), T)' --chronicles shattering.pl
 Times T are intervals Start-End in seconds; a number for T means at that instant.
 """
 
@@ -27,6 +28,13 @@ def add_to(commands: Any) -> None:
         action="store_true",
         help="refuse where Prolog cannot be kept from files, programs and the network (doctor tells)",
     )
+    parser.add_argument(
+        "--chronicles",
+        action="append",
+        default=[],
+        metavar="FILE",
+        help="rules chronicle(Event, Start-End) :- Goal whose answers are events too; may be repeated",
+    )
     parser.add_argument("--limit", type=int, metavar="N", help="print at most N answers")
 
 
@@ -36,10 +44,12 @@ def run(given: argparse.Namespace) -> int:
         raise InputError(f"--limit {given.limit}: at least 1 answer must be allowed")
     if given.require_confinement:
         os.environ["PROLEPSIS_REQUIRE_CONFINEMENT"] = "1"
+    from prolepsis.logic.session import Session, shared_session
     from prolepsis.saved import read_timeline
 
     timeline = read_timeline(given.folder)
-    answers = timeline.ask(given.goal, limit=given.limit)
+    session = Session(chronicles=tuple(given.chronicles)) if given.chronicles else shared_session()
+    answers = session.ask(timeline, given.goal, limit=given.limit)
     warn_unchecked(timeline.domain.unchecked)
     for answer in answers:
         if given.json:

@@ -72,6 +72,8 @@ def rule_refusal(reply: str, file: Path, *, text: str = "", limit: float = 0.0) 
         case "open":
             what = "needs a value before it is known, or leaves its event or interval open, or too large"
             return InputError(f"{at}: chronicle {where} {what}")
+        case "backwards":
+            return InputError(f"{at}: chronicle {where} has an interval that ends before it starts, {_short(about)}")
         case "failed":
             return _failed(f"{at}: chronicle {where}", about, limit)
         case _:

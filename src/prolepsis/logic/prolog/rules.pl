@@ -162,7 +162,10 @@ checked(occurrence(S, E, Event)) :-
         E < inf,
         small(Event),
         ground(Event)
-    ->  true
+    ->  (   S =< E
+        ->  true
+        ;   throw(backwards(S, E))
+        )
     ;   throw(open_answer)
     ).
 
@@ -184,6 +187,10 @@ failure_at(failed(PI, too_many_answers), ["answers\n", Text, "\n", Most]) :-
     !,
     short_text(PI, Text),
     most_answers(Most).
+failure_at(failed(PI, backwards(S, E)), ["backwards\n", Text, "\n", Interval]) :-
+    !,
+    short_text(PI, Text),
+    short_text(S-E, Interval).
 failure_at(failed(PI, open_answer), ["open\n", Text]) :- !, short_text(PI, Text).
 failure_at(failed(PI, error(instantiation_error, _)), ["open\n", Text]) :- !, short_text(PI, Text).
 failure_at(failed(PI, Error), ["failed\n", Text, "\n"|Lines]) :- !, short_text(PI, Text), failure(Error, Lines).

@@ -172,9 +172,7 @@ table_clause(Module, Table, Head) :-
 foldl_chronicles([], _, _, _, Id, Id).
 foldl_chronicles([Name/Arity|Names], Source, Finder, Module, Id0, Id) :-
     functor(Event, Name, Arity),
-    Module:tick(Tick),
-    % max/2 alone passes over what is no number.
-    call(Finder, Event, ( Source:chronicle(Event, S-E0), E is max(E0, S+Tick)+0*E0 ), occurrence(S, E, Event), Found),
+    call(Finder, Event, ( Source:chronicle(Event, S-E0), E is E0 ), occurrence(S, E, Event), Found),
     sort(Found, Distinct),
     (   Distinct == []
     ->  Id1 = Id0
@@ -184,8 +182,10 @@ foldl_chronicles([Name/Arity|Names], Source, Finder, Module, Id0, Id) :-
     foldl_chronicles(Names, Source, Finder, Module, Id1, Id).
 
 assert_occurrences([], _, Id, Id).
-assert_occurrences([occurrence(S, E, Event)|More], Module, Id0, Id) :-
+assert_occurrences([occurrence(S, E0, Event)|More], Module, Id0, Id) :-
     Id1 is Id0+1,
+    Module:tick(Tick),
+    E is max(E0, S+Tick),
     flat(Event, Type, First, Second),
     assertz(Module:event(Type, First, Second, Event, S, E, Id1)),
     assert_occurrences(More, Module, Id1, Id).
