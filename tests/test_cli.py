@@ -203,6 +203,8 @@ BAD: list[tuple[list[str], str]] = [
     (["sweep", "{drop}", "--over", "Time="], "'Time=': is not of the form NAME=VALUE"),
     (["sweep", "{drop}", "--over", "Time=1,,2"], "between two commas"),
     (["sweep", "{drop}", "--over", "Speed=1,2"], "no parameter named 'Speed'"),
+    (["render", "{saved}", "--strip", "{saved}/a.png"], "lies in the saved folder"),
+    (["timeline", "{drop}"], "is a file; needed: a folder that"),
     (["render", "{saved}"], "nothing to draw"),
     (["render", "{saved}", "--out", "{new}/film.avi"], "ends in .mp4"),
     (["render", "{saved}", "--out", "{new}/film.mp4", "--speed", "0"], "speed 0"),

@@ -304,6 +304,15 @@ def test_a_long_folder_for_temporary_files_is_passed_over(tmp_path: Path, monkey
     process.close()
 
 
+def test_an_older_prolog_is_told_of(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    files = shutil.copytree(processes.PROLOG_FILES, tmp_path / "prolog")
+    main = files / "main.pl"
+    main.write_text(main.read_text().replace(">= 90004", ">= 9900004"))
+    monkeypatch.setattr(processes, "PROLOG_FILES", files)
+    with pytest.raises(MissingToolError, match=r"version 9\.0\.4 or newer is needed"):
+        PrologProcess()
+
+
 def test_a_script_in_the_place_of_swipl_leads_to_what_it_starts(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

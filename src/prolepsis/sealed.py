@@ -69,6 +69,8 @@ def read_sealed(folder: str | Path) -> Path:
     """
     path = Path(folder)
     aside.put_back(Path(os.path.realpath(path)))
+    if path.is_file():
+        raise LogError(f"{path}: is a file; needed: a folder that `prolepsis project SCENARIO --out DIR` saved")
     if not path.is_dir():
         raise LogError(f"{path}: no such folder; `prolepsis project SCENARIO --out {path}` would make it")
     manifest = _read_manifest(path, versions=(FORMAT_VERSION,))

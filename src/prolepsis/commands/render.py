@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+from pathlib import Path
 from typing import Any
 
 from prolepsis.commands.output import add_command, add_progress, progress_line
@@ -36,6 +37,11 @@ def run(given: argparse.Namespace) -> int:
     """Draw what was asked for and print the names of the files."""
     if not (given.out or given.frames or given.strip):
         raise InputError("nothing to draw: give --out VIDEO.mp4, --frames DIR or --strip FILE.png")
+    folder = Path(given.folder).resolve()
+    for name in filter(None, (given.out, given.frames, given.strip)):
+        if Path(name).resolve().is_relative_to(folder):
+            # The next run would find a file that it did not write, and leave the folder alone.
+            raise InputError(f"{name}: lies in the saved folder; give a name outside of {given.folder}")
     size = _size(given.size)
     times = None if given.times is None else [_number(time, "--times") for time in given.times.split(",")]
     from prolepsis.log_files import read_log

@@ -3,6 +3,11 @@
     Python holds the other end of its standard input, and writes nothing: when that end closes, Python is gone.
 */
 
+:- ( current_prolog_flag(version, Version), Version >= 90004
+   ->  true
+   ;   format(user_error, "version 9.0.4 or newer is needed~n", []),
+       halt(1)
+   ).
 :- set_prolog_flag(verbose_load, silent).
 % What libraries need is loaded now, not by the first thread that meets it: two at once get in each other's way.
 :- set_prolog_flag(autoload, false).
