@@ -1,0 +1,148 @@
+"""Digests of what every example comes to, by logical name and value: whether a change left all answers as they were.
+
+    .venv/bin/python tools/digests.py                    compare with tools/digests.json, and list what differs
+    .venv/bin/python tools/digests.py --write            write it anew
+    .venv/bin/python tools/digests.py dropped_egg pour_a only these
+
+A digest is of content, not of files: poses, contacts, particles, channels, detachments, actions and facts, with the
+names of things in the place of their indices, so that rooms, formats and the order of things may change. Numbers
+count to the last bit; other versions of the engine or another kind of processor give other digests.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import json
+import platform
+import sys
+import time
+from collections.abc import Iterable
+from concurrent.futures import ProcessPoolExecutor
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import prolepsis
+from prolepsis import Log, Timeline
+
+EXAMPLES = Path(__file__).parent.parent / "examples"
+KEPT = Path(__file__).parent / "digests.json"
+VERSIONS = ("mujoco", "numpy", "scipy", "numba")
+NOBODY = {-1: "-", -2: "parked"}
+"""What stands for an index that is no thing's."""
+
+
+def main() -> int:
+    """Compare or write the digests; exit status 1 if any differs."""
+    read = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    read.add_argument(
+        "names", nargs="*", metavar="EXAMPLE", help="names of scenarios in examples/; all if none is given"
+    )
+    read.add_argument("--write", action="store_true", help="write the digests instead of comparing them")
+    read.add_argument("--file", type=Path, default=KEPT, help="where they are kept (tools/digests.json)")
+    read.add_argument("--jobs", type=int, default=2, metavar="N", help="scenarios at the same time (2)")
+    given = read.parse_args()
+    names = given.names or sorted(path.stem for path in EXAMPLES.glob("*.toml"))
+    kept: dict[str, Any] = json.loads(given.file.read_text()) if given.file.exists() else {}
+    before: dict[str, Any] = kept.get("examples", {})
+    found: dict[str, Any] = {}
+    changed = 0
+    with ProcessPoolExecutor(given.jobs) as pool:
+        for name, digest, seconds in pool.map(digest_of, names):
+            found[name] = digest
+            lines = list(differences(before.get(name, {}), digest))
+            changed += bool(lines)
+            print(
+                f"{name}: {'as before' if not lines else 'CHANGED'} ({seconds:.1f} s)", *lines, sep="\n  ", flush=True
+            )
+    if given.write:
+        whole = {"made_with": made_with(), "examples": dict(sorted({**before, **found}.items()))}
+        given.file.write_text(json.dumps(whole, indent=1) + "\n")
+        return 0
+    if changed and kept.get("made_with") != made_with():
+        print(f"the kept digests are of {kept.get('made_with')}, these of {made_with()}")
+    return 1 if changed else 0
+
+
+def made_with() -> dict[str, str]:
+    """Return what the last digits hang on."""
+    return {"machine": platform.machine(), **{name: version(name) for name in VERSIONS}}
+
+
+def digest_of(name: str) -> tuple[str, dict[str, Any], float]:
+    """Return an example's name, its digests with the facts as lines, and how long it took [s]."""
+    begin = time.perf_counter()
+    try:
+        projection = prolepsis.project(EXAMPLES / f"{name}.toml")
+    except prolepsis.ProlepsisError as error:
+        return name, {"refused": str(error)}, time.perf_counter() - begin
+    digest = {**digest_of_log(projection.log), **digest_of_timeline(projection.timeline)}
+    return name, digest, time.perf_counter() - begin
+
+
+def digest_of_log(log: Log) -> dict[str, Any]:
+    """Return a digest of each part of a log."""
+    names = [thing.name for thing in log.things]
+    order = sorted(range(len(names)), key=names.__getitem__)
+    frames = log.particles
+    kinds = [(names[i], float(m), float(v)) for i, m, v in zip(frames.stuff, frames.mass, frames.volume, strict=True)]
+    return {
+        "things": _digest(names[i] for i in order),
+        "poses": _digest([log.dt, log.time, *(part for i in order for part in (names[i], log.poses[:, i]))]),
+        "carriers": _digest(part for i in order for part in (names[i], *_named(log.carrier[:, i], names))),
+        "contacts": _rows(log.contacts, names, named=("a", "b")),
+        "bonds": _rows(log.bonds, names, named=("a", "b")),
+        "detachments": _rows(log.detachments, names, named=("thing", "a", "b")),
+        "particles": _digest([frames.tick, frames.position, frames.spacing, *_named(frames.holder, names), *kinds]),
+        "channels": _digest(part for name in sorted(log.channels) for part in (name, log.channels[name])),
+        "actions": _digest((str(a.term), a.start, a.end, a.outcome, sorted(a.evidence.items())) for a in log.actions),
+    }
+
+
+def digest_of_timeline(timeline: Timeline) -> dict[str, Any]:
+    """Return a digest of the evidence, and the facts themselves, to be listed when they change."""
+    return {
+        "evidence": _digest((str(fact.term), fact.start, sorted(fact.evidence.items())) for fact in timeline.facts),
+        "facts": [f"{fact.start:.3f} {fact.end:.3f} {fact.kind} {fact.term}" for fact in timeline.facts],
+    }
+
+
+def differences(before: dict[str, Any], after: dict[str, Any]) -> Iterable[str]:
+    """Yield what differs: the parts by name, and the facts that went and came."""
+    for part in sorted({*before, *after} - {"facts"}):
+        if before.get(part) != after.get(part):
+            yield f"{part}: {before.get(part, 'none')} -> {after.get(part, 'none')}"
+    yield from (f"- {line}" for line in before.get("facts", []) if line not in after.get("facts", []))
+    yield from (f"+ {line}" for line in after.get("facts", []) if line not in before.get("facts", []))
+
+
+def _rows(table: Any, names: list[str], named: tuple[str, ...]) -> str:
+    columns = {name: getattr(table, name) for name in type(table).__dataclass_fields__}
+    parts = [part for name in named for part in _named(columns[name], names)]
+    return _digest([*parts, *(columns[name] for name in sorted(columns) if name not in named)])
+
+
+def _named(index: Any, names: list[str]) -> list[Any]:
+    """Return an array of indices as the names that are in it, sorted, and an array of positions among these."""
+    values, place = np.unique(index, return_inverse=True)
+    shown = [NOBODY.get(value) or names[value] for value in values.tolist()]
+    order = np.argsort(np.argsort(shown, kind="stable"), kind="stable")
+    return [index.shape, *sorted(shown), order[place].astype(np.int64)] if len(shown) else [index.shape]
+
+
+def _digest(parts: Iterable[Any]) -> str:
+    seal = hashlib.sha256()
+    for part in parts:
+        if isinstance(part, np.ndarray):
+            seal.update(f"{part.dtype.kind}{part.dtype.itemsize}{part.shape}".encode())
+            seal.update(np.ascontiguousarray(part).tobytes())
+        else:
+            seal.update(repr(part).encode() + b"\0")
+    return seal.hexdigest()[:16]
+
+
+if __name__ == "__main__":
+    sys.exit(main())
