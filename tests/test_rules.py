@@ -129,7 +129,12 @@ def test_a_later_file_sees_the_events_of_an_earlier_one(tmp_path: Path) -> None:
 @pytest.mark.parametrize("kind", ["missing", "folder", "fifo", "long", "latin"])
 def test_what_is_no_file_of_rules_is_refused(tmp_path: Path, kind: str) -> None:
     file = tmp_path / "rules.pl"
-    expected = {"missing": "No such file", "folder": "is no file", "fifo": "is no file", "long": "has 1,000,001 bytes"}
+    expected = {
+        "missing": "cannot read the file: No such file",
+        "folder": "it is a folder, not a file",
+        "fifo": "it is a pipe, not a file",
+        "long": "is too long: more than 1,000,000 bytes",
+    }
     if kind == "folder":
         file.mkdir()
     elif kind == "fifo":
@@ -139,6 +144,6 @@ def test_what_is_no_file_of_rules_is_refused(tmp_path: Path, kind: str) -> None:
     elif kind == "latin":
         file.write_bytes(b"% \xff")
     session = Session(chronicles=(file,))
-    with pytest.raises(InputError, match=expected.get(kind, "is no UTF-8 at byte 2")):
+    with pytest.raises(InputError, match=expected.get(kind, "is not UTF-8 text at byte 2")):
         session.ask(timeline(), "true")
     session.close()

@@ -16,6 +16,7 @@ from prolepsis.knowledge.turtle import Document, parse_turtle
 from prolepsis.own_robot import OwnRobot
 from prolepsis.scenario_file import DEFAULT_PARTICLES, ParameterTable, read_file, read_robot
 from prolepsis.terms import PARTIAL_LIST, Term, Value, Variable, parse_term
+from prolepsis.text_files import is_file
 from prolepsis.units import read_quantity, si_symbol, to_float, to_si, unit_of
 
 FEWEST_PARTICLES, MOST_PARTICLES = 20, 200_000
@@ -120,7 +121,7 @@ class Scenario:
         files = [content.situation] if isinstance(content.situation, str) else content.situation
         situation = tuple(path.parent / name for name in files)
         for file in situation:
-            if not _is_file(file):
+            if not is_file(file):
                 raise ScenarioError(f"{path}: situation: there is no file {brief(file)}")
         scenario = cls(
             path=path,
@@ -216,13 +217,6 @@ def bind(value: Value, values: Mapping[str, float | str]) -> Value:
     if isinstance(value, tuple):
         return tuple(bind(item, values) for item in value)
     return value
-
-
-def _is_file(path: Path) -> bool:
-    try:
-        return path.is_file()
-    except OSError:  # Its name is too long, or a folder on the way to it may not be entered.
-        return False
 
 
 def _plan(text: str, path: Path) -> Value:

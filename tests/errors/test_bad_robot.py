@@ -30,7 +30,7 @@ def refused(folder: Path, text: str, model: str | None = None) -> str:
 
 
 TABLE = [
-    ('file = "own_arm.xml"', 'file = "other.xml"', "other.xml: there is no such robot file"),
+    ('file = "own_arm.xml"', 'file = "other.xml"', "other.xml: cannot read the robot file: No such file or directory"),
     (
         'file = "own_arm.xml"',
         'fil = "own_arm.xml"',

@@ -32,16 +32,16 @@ FILES = {
     "endless": (HEAD + b"0,0,0,0\n0.1,inf,0,0\n", "row 2: dx is no finite number"),
     "holes": (HEAD + b"0,0,0,0\n0.1,,0,0\n", "row 2: dx is no finite number"),
     "time going backwards": (HEAD + b"0,0,0,0\n0.1,0,0,0\n0.05,0,0,0\n", "row 3: time does not rise"),
-    "lines of other lengths": (b"a,b\nroot:x:0:0:secret\n", "cannot be read: expected 2 columns, got 1"),
+    "lines of other lengths": (b"a,b\nroot:x:0:0:secret\n", "cannot read the recording: expected 2 columns, got 1"),
     "another file": (
         b"root:x:0:0:secret:/root:/bin/sh\n" * 9,
         "column with a name that cannot be one holds something that is no number",
     ),
     "rubbish": (bytes(range(256)) * 20, "the recording"),
-    "not UTF-8": (b"time,d\xff\xfe,dy,dz\n0,0,0,0\n", "cannot be read"),
+    "not UTF-8": (b"time,d\xff\xfe,dy,dz\n0,0,0,0\n", "cannot read the recording"),
     "a long name": (b"secret" * 10_000 + b"\n0\n", "with a name that cannot be one"),
     "many columns": (b",".join(b"c%d" % k for k in range(300)) + b"\n", "300 columns; allowed: 600001 rows, 200"),
-    "nothing": (b"", "cannot be read"),
+    "nothing": (b"", "cannot read the recording"),
 }
 
 
@@ -82,13 +82,13 @@ def test_a_table_of_texts_is_refused_before_it_is_unpacked(tmp_path: Path) -> No
 @pytest.mark.parametrize("content", [b"PAR1", b"PAR1" + bytes(100) + b"PAR1", b""])
 def test_a_broken_table(tmp_path: Path, content: bytes) -> None:
     (tmp_path / "r.parquet").write_bytes(content)
-    assert "cannot be read: it is no table" in refusal(tmp_path / "r.parquet")
+    assert "cannot read the recording: it is no table" in refusal(tmp_path / "r.parquet")
 
 
 def test_devices_pipes_and_folders_are_no_recordings(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe.csv")
-    for path in (tmp_path / "pipe.csv", Path("/dev/zero"), tmp_path):
-        assert "it is no file" in refusal(path)
+    for path, kind in ((tmp_path / "pipe.csv", "pipe"), (Path("/dev/zero"), "device"), (tmp_path, "folder")):
+        assert f"cannot read the recording: it is a {kind}, not a file" in refusal(path)
 
 
 def test_times_of_the_clock_are_taken(tmp_path: Path) -> None:

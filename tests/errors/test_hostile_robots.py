@@ -119,7 +119,9 @@ def test_includes_that_go_deep_together_are_refused(tmp_path: Path) -> None:
 
 def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe.xml")
-    assert "there is no such robot file" in refused(tmp_path, EXAMPLE.replace("own_arm.xml", "pipe.xml"))
+    assert "pipe.xml: cannot read the robot file: it is a pipe, not a file" in refused(
+        tmp_path, EXAMPLE.replace("own_arm.xml", "pipe.xml")
+    )
     assert "pipe.xml" in refused(tmp_path, EXAMPLE, in_model('<include file="pipe.xml"/>'))
 
 

@@ -205,7 +205,7 @@ def test_a_bad_stream(tmp_path: Path, columns: dict[str, object], message: str) 
         ("replay(hand1, 'far.csv')", r"far.csv: row 2 \(0.1 s\): out of reach of hand1: 1.60 m away, allowed 1.5 m"),
         ("replay(hand1, 'short.csv')", r"short.csv: 1 rows; at least 2 are needed"),
         ("replay(hand1, 'timeless.csv')", r"timeless.csv: there is no column time \[s\]"),
-        ("replay(hand1, 'bad.parquet')", r"bad.parquet: the recording cannot be read"),
+        ("replay(hand1, 'bad.parquet')", r"bad.parquet: cannot read the recording"),
     ],
 )
 def test_a_bad_file(tmp_path: Path, plan: str, message: str) -> None:

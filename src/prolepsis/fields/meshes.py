@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import stat
 from functools import lru_cache
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from prolepsis.errors import KnowledgeError
+from prolepsis.text_files import is_file, read_bytes
 from prolepsis.things import Surface
 
 FORMATS = (".stl", ".obj", ".ply", ".off")
@@ -32,15 +33,8 @@ def read_surface(path: Path, scale: float = 1.0) -> Surface:
     Raises:
         KnowledgeError: If it cannot be read, is not watertight, encloses nothing, or is far too large.
     """
-    try:
-        found = path.stat()
-        if not stat.S_ISREG(found.st_mode):
-            raise KnowledgeError(f"{path}: cannot read the mesh: it is no file")
-        if found.st_size > MOST_BYTES:
-            raise KnowledgeError(f"{path}: the mesh is larger than {MOST_BYTES / 2**20:g} MiB")
-        return _read(path, scale, found.st_mtime_ns)
-    except OSError as error:
-        raise KnowledgeError(f"{path}: cannot read the mesh: {error.strerror}") from None
+    changed = path.stat().st_mtime_ns if is_file(path) else 0
+    return _read(path, scale, changed)
 
 
 @lru_cache(maxsize=16)
@@ -48,16 +42,15 @@ def _read(path: Path, scale: float, changed: int) -> Surface:
     del changed  # A file that is written anew is read anew.
     if path.suffix.lower() not in FORMATS:
         raise KnowledgeError(f"{path}: cannot read the mesh: {path.suffix or 'no'} format; known: {', '.join(FORMATS)}")
+    content = read_bytes(path, "mesh", most=MOST_BYTES, error=KnowledgeError)
     # The import takes longer than a scene without meshes.
     import trimesh
 
     library: Any = trimesh
     try:
-        mesh: Any = library.load_mesh(str(path))
+        mesh: Any = library.load_mesh(BytesIO(content), file_type=path.suffix[1:].lower())
         mesh.merge_vertices()
         triangles, vertices = np.asarray(mesh.faces), scale * np.asarray(mesh.vertices, dtype=np.float64)
-    except OSError:
-        raise
     except Exception as error:  # A reader of foreign files fails in as many ways as there are files.
         # Its words may repeat what stands in the file.
         raise KnowledgeError(

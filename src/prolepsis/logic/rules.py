@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import difflib
-import stat
 from pathlib import Path
 
 from prolepsis.errors import GoalLimitError, InputError, brief
 from prolepsis.logic.refusals import PERMITTED
+from prolepsis.text_files import read_text
 
 LONGEST_RULES = 1_000_000
 """Longest file of chronicles [bytes]."""
@@ -20,17 +20,7 @@ def read_rules(file: Path) -> str:
     Raises:
         InputError: If it is no file, too long, or no UTF-8.
     """
-    try:
-        status = file.stat()
-        if not stat.S_ISREG(status.st_mode):
-            raise InputError(f"chronicles, {file}: is no file")
-        if status.st_size > LONGEST_RULES:
-            raise InputError(f"chronicles, {file}: has {status.st_size:,} bytes; at most {LONGEST_RULES:,} are read")
-        return file.read_bytes().decode("utf-8")
-    except OSError as error:
-        raise InputError(f"chronicles, {file}: {error.strerror}") from None
-    except UnicodeDecodeError as error:
-        raise InputError(f"chronicles, {file}: is no UTF-8 at byte {error.start}") from None
+    return read_text(file, "file", most=LONGEST_RULES, error=InputError, called=f"chronicles, {brief(file, 100)}")
 
 
 def rule_refusal(reply: str, file: Path, *, text: str = "", limit: float = 0.0) -> InputError:

@@ -13,6 +13,7 @@ from prolepsis.programs.commands import Behaviour
 from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.scene.scene import Scene
 from prolepsis.terms import Term, Value, Variable
+from prolepsis.text_files import is_file
 from prolepsis.things import Thing
 from prolepsis.units import to_float
 
@@ -280,7 +281,7 @@ def _is_loose(thing: Thing, scene: Scene) -> bool:
 def _bind_file(value: Value, where: str, scene: Scene) -> Path:
     if not isinstance(value, str):
         raise PlanError(f"{where} must be the {KINDS['file']}, not {brief(value)}")
-    if not (scene.folder / value).is_file():
+    if not is_file(scene.folder / value):
         raise PlanError(f"{where}: there is no file {scene.folder / value}")
     return scene.folder / value
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import stat
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,6 +15,7 @@ import pyarrow.parquet as parquet  # pyright: ignore[reportMissingTypeStubs]
 
 from prolepsis.errors import PlanError, UnknownNameError
 from prolepsis.robots.turned import turned
+from prolepsis.text_files import read_bytes
 from prolepsis.things import FloatArray
 
 LONGEST_GAP = 0.2
@@ -120,12 +120,12 @@ def read_recording(path: Path, joints: Collection[str]) -> Recording:
 def _columns(path: Path) -> dict[str, FloatArray]:
     """Return the columns of a file as numbers, empty cells as NaN."""
     known = cast(Any, arrow)
-    content = known.BufferReader(_content(path))
+    content = known.BufferReader(read_bytes(path, "recording", most=MOST_BYTES, error=PlanError, called=path.name))
     try:
         table: Any = _parquet(path, content) if path.suffix == ".parquet" else cast(Any, csv).read_csv(content)
         names = [str(name).strip() for name in table.column_names]
     except (OSError, UnicodeError, known.ArrowException) as error:
-        raise PlanError(f"{path.name}: the recording cannot be read: {_reason(str(error))}") from None
+        raise PlanError(f"{path.name}: cannot read the recording: {_reason(str(error))}") from None
     twice = next((name for k, name in enumerate(names) if name in names[:k]), None)
     if twice is not None:
         raise PlanError(f"{path.name}: column {_shown(twice)} is there twice")
@@ -138,20 +138,6 @@ def _columns(path: Path) -> dict[str, FloatArray]:
             raise PlanError(f"{path.name}: column {_shown(name)} holds something that is no number") from None
         columns[name] = np.array(column, dtype=np.float64)
     return columns
-
-
-def _content(path: Path) -> bytes:
-    """Return the bytes of a file: not of a device or a pipe, and not more than a recording has."""
-    try:
-        if not stat.S_ISREG(path.stat().st_mode):
-            raise PlanError(f"{path.name}: the recording cannot be read: it is no file")
-        with path.open("rb") as file:
-            content = file.read(MOST_BYTES + 1)
-    except OSError as error:
-        raise PlanError(f"{path.name}: the recording cannot be read: {error.strerror}") from None
-    if len(content) > MOST_BYTES:
-        raise PlanError(f"{path.name}: the recording is longer than {MOST_BYTES / 2**20:g} MiB")
-    return content
 
 
 def _parquet(path: Path, content: Any) -> Any:

@@ -14,8 +14,9 @@ import numpy as np
 
 from prolepsis.engine import mujoco
 from prolepsis.errors import ScenarioError
-from prolepsis.robots.model_text import inside, is_regular, read_model_tree, short, speed_limit
+from prolepsis.robots.model_text import inside, read_model_tree, short, speed_limit
 from prolepsis.robots.trial import try_robot
+from prolepsis.text_files import is_file
 
 ROOT = "mount"
 """Body that is added if none carries all others."""
@@ -138,7 +139,7 @@ def _place_of(file: str, path: Path, folder: str) -> Path | None:
         places = [inside(each / package, Path(name)) for each in above] if _NAME.fullmatch(package) else []
         homes = [each for each in above if each.name == package or (each / "package.xml").is_file()]
         places += [inside(each, Path(name)) for each in homes]
-    return next((place for place in places if place is not None and is_regular(place)), None)
+    return next((place for place in places if place is not None and is_file(place)), None)
 
 
 def _refuse_joints(model: Any, path: Path) -> None:

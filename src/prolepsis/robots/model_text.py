@@ -7,13 +7,13 @@ what is sensed; MuJoCo never reads the file itself, only what is written anew fr
 from __future__ import annotations
 
 import math
-import stat
 from collections.abc import Iterator
 from pathlib import Path
 from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers import expat
 
 from prolepsis.errors import ScenarioError
+from prolepsis.text_files import read_bytes
 
 MOST_BYTES = 16 * 2**20
 """Longest robot file, what it includes counted too [byte]."""
@@ -104,12 +104,13 @@ def read_model_tree(path: Path) -> Element:
     Raises:
         ScenarioError: If it cannot be read, is too large, or holds something that is not allowed.
     """
+    content = read_bytes(path, "robot file", most=MOST_BYTES, error=ScenarioError)
+    root = _parse(path, content, path)
     folder = path.resolve().parent
-    root = _parse(path, _bytes(path, path, MOST_BYTES), path)
     if root.tag == "robot":
         _only(root, _URDF)
     elif root.tag == "mujoco":
-        _include(root, path, folder, [path.resolve()], [path.stat().st_size])
+        _include(root, path, folder, [path.resolve()], [len(content)])
         _refuse_sizes(root, path)
         _keep_listed(root, path)
     else:
@@ -136,27 +137,6 @@ def short(text: str) -> str:
     """Return a foreign text on one line that is not long."""
     line = " ".join(text.split())
     return line if len(line) <= MOST_SAID else f"{line[: MOST_SAID - 3]}..."
-
-
-def is_regular(path: Path) -> bool:
-    """Return whether a path leads to a file, not to a device, a pipe or a folder."""
-    try:
-        return stat.S_ISREG(path.stat().st_mode)
-    except (OSError, ValueError):
-        return False
-
-
-def _bytes(file: Path, path: Path, most: int) -> bytes:
-    if not is_regular(file):
-        raise ScenarioError(f"{path}: there is no such robot file{'' if file == path else f': {short(file.name)}'}")
-    try:
-        with file.open("rb") as opened:
-            content = opened.read(most + 1)
-    except OSError as error:
-        raise ScenarioError(f"{path}: the robot cannot be read: {error.strerror}") from None
-    if len(content) > most:
-        raise ScenarioError(f"{path}: the robot file is longer than {MOST_BYTES / 2**20:g} MiB, includes counted")
-    return content
 
 
 def _parse(file: Path, content: bytes, path: Path) -> Element:
@@ -207,8 +187,12 @@ def _include(root: Element, path: Path, folder: Path, seen: list[Path], read: li
             if file in seen:
                 raise ScenarioError(f"{path}: include {short(named)}: is included twice, or includes itself")
             seen.append(file)
-            content = _bytes(file, path, MOST_BYTES - sum(read))
+            content = read_bytes(
+                file, f"included file {short(named)}", most=MOST_BYTES, error=ScenarioError, called=str(path)
+            )
             read.append(len(content))
+            if sum(read) > MOST_BYTES:
+                raise ScenarioError(f"{path}: the robot's files are too long: more than {MOST_BYTES:,} bytes together")
             included = _parse(file, content, path)
             _include(included, path, folder, seen, read)
             parent[place : place + 1] = list(included)
