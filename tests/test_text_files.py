@@ -6,10 +6,11 @@ import os
 import socket
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any, cast
 
 import numpy as np
-import pyarrow
-import pyarrow.parquet
+import pyarrow as arrow  # pyright: ignore[reportMissingTypeStubs]
+import pyarrow.parquet as parquet  # pyright: ignore[reportMissingTypeStubs]
 import pytest
 
 from prolepsis.errors import InputError
@@ -80,7 +81,7 @@ def test_a_recording_may_have_any_name(suffix: str, tmp_path: Path) -> None:
         path.write_text("time,dx,dy,dz\n0,0,0,0\n0.1,0.1,0.1,0.1\n")
     else:
         with path.open("wb") as file:
-            pyarrow.parquet.write_table(pyarrow.table(columns), file)
+            cast(Any, parquet).write_table(cast(Any, arrow).table(columns), file)
     assert list(read_recording(path, ()).time) == [0.0, 0.1]
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import fields
 from pathlib import Path
 from typing import Any, cast
@@ -15,13 +15,15 @@ from prolepsis import particle_tables
 from prolepsis.errors import InputError, LogError, brief
 from prolepsis.log import Action, Log, Particles
 from prolepsis.log_checks import check_log
-from prolepsis.sealed import read_sealed, read_text, to_json, write_sealed
+from prolepsis.sealed import read_sealed, read_text, write_json, write_sealed
 from prolepsis.terms import Term, format_value, parse_term
 from prolepsis.things import Geom, Hole, Shape, Surface, Thing, Triple
 
 HEAD = "log.json"
 """Tick, gravity, things, actions and the spacing of the particles: what is no column."""
 _EXACTLY = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+_TICKS, _POSES, _CONTACTS = "ticks.parquet", "poses.parquet", "contacts.parquet"
+_BONDS, _DETACHMENTS = "bonds.parquet", "detachments.parquet"
 _FRAMES, _KINDS, _PLACES = "particle_frames.parquet", "particle_kinds.parquet", "particles.parquet"
 
 
@@ -85,18 +87,30 @@ def write_log_files(log: Log, path: Path) -> None:
         "actions": [_plain_action(action) for action in log.actions],
         "particles": {"spacing": log.particles.spacing} if _has_particles(log) else None,
     }
-    (path / HEAD).write_text(to_json(head), encoding="utf-8")
+    write_json(path / HEAD, head)
+    sizes: dict[str, int] = {}
+    for name, columns, kinds in _tables_of(log):
+        sizes[name] = tables.write_table(path / name, columns, kinds)
+        if sum(sizes.values()) > tables.MOST_BYTES:
+            raise InputError(
+                f"the log cannot be saved: {name} {tables.unpacked(sizes[name], sum(sizes.values()))} could be read"
+                " again; shorten the run, or take fewer particles or things"
+            )
+
+
+def _tables_of(log: Log) -> Iterator[tuple[str, tables.Columns, tables.Kinds]]:
+    """Yield the name, the columns and their kinds of each table of a log."""
     ticks = {"time": log.time, **dict(sorted(log.channels.items()))}
-    tables.write_table(path / "ticks.parquet", ticks, dict.fromkeys(ticks, "double"))
-    tables.write_table(path / "poses.parquet", tables.pose_columns(log.poses, log.carrier), tables.POSES)
-    tables.write_table(path / "contacts.parquet", tables.contact_columns(log.contacts), tables.CONTACTS)
-    tables.write_table(path / "bonds.parquet", tables.bond_columns(log.bonds), tables.BONDS)
-    tables.write_table(path / "detachments.parquet", tables.detachment_columns(log.detachments), tables.DETACHMENTS)
+    yield _TICKS, ticks, dict.fromkeys(ticks, "double")
+    yield _POSES, tables.pose_columns(log.poses, log.carrier), tables.POSES
+    yield _CONTACTS, tables.contact_columns(log.contacts), tables.CONTACTS
+    yield _BONDS, tables.bond_columns(log.bonds), tables.BONDS
+    yield _DETACHMENTS, tables.detachment_columns(log.detachments), tables.DETACHMENTS
     if _has_particles(log):
-        tables.write_table(path / _FRAMES, particle_tables.frame_columns(log.particles), particle_tables.FRAMES)
-        tables.write_table(path / _KINDS, particle_tables.kind_columns(log.particles), particle_tables.KINDS)
+        yield _FRAMES, particle_tables.frame_columns(log.particles), particle_tables.FRAMES
+        yield _KINDS, particle_tables.kind_columns(log.particles), particle_tables.KINDS
         places = particle_tables.place_columns(log.particles)
-        tables.write_table(path / _PLACES, places, particle_tables.place_kinds(places))
+        yield _PLACES, places, particle_tables.place_kinds(places)
 
 
 def read_log_files(path: Path) -> Log:
@@ -108,20 +122,20 @@ def read_log_files(path: Path) -> Log:
     try:
         head = _Head.model_validate_json(read_text(path / HEAD))
         things = head.things
-        ticks = tables.read_table(path / "ticks.parquet")
+        dry, wet = (_TICKS, _POSES, _CONTACTS, _BONDS, _DETACHMENTS), (_FRAMES, _KINDS, _PLACES)
+        tables.check_unpacked_sizes(path / name for name in (*dry, *(wet if head.particles else ())))
+        ticks = tables.read_table(path / _TICKS)
         time = ticks.pop("time")
-        poses, carrier = tables.poses_from(
-            tables.read_table(path / "poses.parquet", tables.POSES), len(time), len(things)
-        )
+        poses, carrier = tables.poses_from(tables.read_table(path / _POSES, tables.POSES), len(time), len(things))
         log = Log(
             dt=head.dt,
             things=things,
             time=time,
             poses=poses,
             carrier=carrier,
-            contacts=tables.contacts_from(tables.read_table(path / "contacts.parquet", tables.CONTACTS)),
-            bonds=tables.bonds_from(tables.read_table(path / "bonds.parquet", tables.BONDS)),
-            detachments=tables.detachments_from(tables.read_table(path / "detachments.parquet", tables.DETACHMENTS)),
+            contacts=tables.contacts_from(tables.read_table(path / _CONTACTS, tables.CONTACTS)),
+            bonds=tables.bonds_from(tables.read_table(path / _BONDS, tables.BONDS)),
+            detachments=tables.detachments_from(tables.read_table(path / _DETACHMENTS, tables.DETACHMENTS)),
             particles=_particles(head.particles, path, len(things), len(time)),
             channels=ticks,
             actions=tuple(_action(row) for row in head.actions),
@@ -131,6 +145,8 @@ def read_log_files(path: Path) -> Log:
         return log
     except FileNotFoundError as error:
         raise LogError(f"{path}: holds no log (it has no {Path(str(error.filename)).name})") from None
+    except MemoryError:
+        raise LogError(f"{path}: memory ran short while its log was read; it needs more than there is") from None
     except ValidationError as error:
         problem = error.errors(include_url=False)[0]
         place = "/".join(str(key) for key in problem["loc"])

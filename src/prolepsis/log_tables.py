@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Generator, Iterable, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, cast
 
@@ -11,7 +12,8 @@ import numpy.typing as npt
 import pyarrow as arrow  # pyright: ignore[reportMissingTypeStubs]
 import pyarrow.parquet as parquet  # pyright: ignore[reportMissingTypeStubs]
 
-from prolepsis.errors import LogError, brief
+from prolepsis import particle_tables
+from prolepsis.errors import InputError, LogError, brief
 from prolepsis.log import Bonds, Contacts, Detachments
 from prolepsis.things import FloatArray, IntArray
 
@@ -28,8 +30,10 @@ _TYPES: Mapping[str, type[np.generic]] = {
 }
 """What columns may consist of, as Parquet calls it."""
 MOST_COLUMNS = 10_000
-MOST_NUMBERS = 2**28
-"""Of a table: 2 GB, or an hour of ten things."""
+"""Of a table."""
+MOST_BYTES = 2**30
+"""Of all tables of a log together once they are unpacked; reading them takes about twice as much memory. The largest
+example, 16 s of a PR2 that pours honey, has 130 MB; an egg that is grasped has 35."""
 
 POSE_COLUMNS = ("x", "y", "z", "qw", "qx", "qy", "qz")
 _VECTORS = ("force", "normal", "point")
@@ -41,8 +45,11 @@ BONDS: Kinds = dict.fromkeys(("a", "b", "start", "end"), "int64")
 DETACHMENTS: Kinds = {**dict.fromkeys(("tick", "thing", "a", "b"), "int64"), "force": "double"}
 
 
-def write_table(file: Path, columns: Columns, kinds: Kinds | None = None) -> None:
-    """Write columns of equal length, as numbers of some kinds. Equal columns give equal bytes."""
+def write_table(file: Path, columns: Columns, kinds: Kinds | None = None) -> int:
+    """Write columns of equal length, as numbers of some kinds, and return how many bytes they are once unpacked.
+
+    Equal columns give equal bytes.
+    """
     writer = cast(Any, parquet)
     if kinds is not None:
         columns = {name: column.astype(_TYPES[kinds[name]], copy=False) for name, column in columns.items()}
@@ -64,6 +71,64 @@ def write_table(file: Path, columns: Columns, kinds: Kinds | None = None) -> Non
             write_statistics=False,
             store_schema=False,
         )
+    return sum(column.nbytes for column in columns.values())
+
+
+def check_unpacked_sizes(files: Iterable[Path]) -> None:
+    """Check by the descriptions of all tables of a log, before one is read, that they are not too large together.
+
+    Raises:
+        LogError: If they are, or a file is no table.
+    """
+    sizes: dict[Path, int] = {}
+    for file in files:
+        with _opened(file) as table:
+            sizes[file] = table.metadata.num_rows * _row_bytes(file, table)
+    total = sum(sizes.values())
+    if total > MOST_BYTES:
+        file = max(sizes, key=lambda each: sizes[each])
+        raise LogError(f"{file}: {unpacked(sizes[file], total)} are read")
+
+
+def refuse_long_run(things: int, ticks: int, particles: int, frames: int) -> None:
+    """Refuse a run, before it is computed, whose poses alone make a log that is too large to be saved.
+
+    Raises:
+        InputError: If it is too long for so many things and particles.
+    """
+    size = things * ticks * _bytes_of(POSES) + particles * frames * _bytes_of(particle_tables.WHOLE_PLACES)
+    if size > MOST_BYTES:
+        raise InputError(
+            f"the log could not be saved: {ticks:,} ticks of {things} things and {frames:,} frames of {particles:,}"
+            f" particles take {size / 1e6:,.0f} MB; at most {MOST_BYTES / 1e6:,.0f} MB could be read again; shorten the"
+            " run, or take fewer particles or things"
+        )
+
+
+def _bytes_of(kinds: Kinds) -> int:
+    return sum(np.dtype(_TYPES[kind]).itemsize for kind in kinds.values())
+
+
+def unpacked(size: int, total: int) -> str:
+    """Return how a message tells the size of a table, and of all tables of its log, once unpacked [byte]."""
+    return (
+        f"would take {size / 1e6:,.0f} MB of memory, and all tables of the log {total / 1e6:,.0f} MB; at most"
+        f" {MOST_BYTES / 1e6:,.0f} MB"
+    )
+
+
+@contextmanager
+def _opened(file: Path) -> Generator[Any]:
+    """Yield a Parquet file; whatever is wrong with it is a ``LogError``."""
+    try:
+        # Arrow itself opens no file whose name is not UTF-8.
+        with (
+            file.open("rb") as stream,
+            cast(Any, parquet).ParquetFile(stream, page_checksum_verification=True) as opened,
+        ):
+            yield opened
+    except (OSError, MemoryError, cast(Any, arrow).ArrowException) as error:
+        raise LogError(f"{file}: cannot be read: {(str(error) or type(error).__name__).splitlines()[0]}") from None
 
 
 def read_table(file: Path, *allowed: Kinds) -> dict[str, npt.NDArray[Any]]:
@@ -76,27 +141,49 @@ def read_table(file: Path, *allowed: Kinds) -> dict[str, npt.NDArray[Any]]:
     Raises:
         LogError: If the file is no such table, or would be too large in memory.
     """
-    try:
-        with (
-            file.open("rb") as stream,
-            cast(Any, parquet).ParquetFile(stream, page_checksum_verification=True) as opened,
-        ):
-            _check_size(file, opened, allowed)
-            table = opened.read(use_threads=False)
-    except (OSError, MemoryError, cast(Any, arrow).ArrowException) as error:
-        raise LogError(f"{file}: cannot be read: {(str(error) or type(error).__name__).splitlines()[0]}") from None
-    if any(column.null_count for column in table.columns):
-        raise LogError(f"{file}: a row lacks a number")
-    return {name: table.column(name).to_numpy() for name in table.column_names}
+    columns: dict[str, npt.NDArray[Any]] = {}
+    with _opened(file) as opened:
+        _check_kinds(file, opened, allowed)
+        rows, row_bytes = opened.metadata.num_rows, _row_bytes(file, opened)
+        if rows * row_bytes > MOST_BYTES:
+            raise LogError(f"{file}: {unpacked(rows * row_bytes, rows * row_bytes)} are read")
+        # One after the other: a page that unpacks to more than it tells then costs that once.
+        for name in opened.schema_arrow.names:
+            column: Any = opened.read(columns=[name], use_threads=False).column(0)
+            if len(column) != rows or column.null_count:
+                raise LogError(f"{file}: {brief(name)} does not have a number in each of the {rows} rows")
+            columns[str(name)] = column.to_numpy()
+    return columns
 
 
-def _check_size(file: Path, opened: Any, allowed: Sequence[Kinds]) -> None:
-    """Check by the description of a table, before it is read, what would come out of it.
+def _row_bytes(file: Path, opened: Any) -> int:
+    """Return what a row of a table takes once unpacked [byte].
 
     Raises:
-        LogError: If that is more than a log has, or something else than numbers.
+        LogError: If the table is not described as ours are: as one part of as many rows, with numbers in each.
     """
-    about, names = opened.metadata, [str(name) for name in opened.schema_arrow.names]
+    about, names = opened.metadata, opened.schema_arrow.names
+    if about.num_row_groups > 1 or len(names) > MOST_COLUMNS:
+        raise LogError(
+            f"{file}: has {len(names)} columns in {about.num_row_groups} parts; at most {MOST_COLUMNS} and 1 are read"
+        )
+    parts = [about.row_group(number) for number in range(about.num_row_groups)]
+    counts = {part.num_rows for part in parts} | {
+        part.column(i).num_values for part in parts for i in range(len(names))
+    }
+    if counts - {about.num_rows} or (about.num_rows and not parts):
+        raise LogError(f"{file}: is described as {about.num_rows} rows, its parts as others")
+    kinds = (str(opened.schema_arrow.field(i).type) for i in range(len(names)))
+    return sum(np.dtype(_TYPES.get(kind, np.float64)).itemsize for kind in kinds)
+
+
+def _check_kinds(file: Path, opened: Any, allowed: Sequence[Kinds]) -> None:
+    """Check by the description of a table, before it is read, of what its columns consist.
+
+    Raises:
+        LogError: If they are not the ones that are allowed, or something else than numbers.
+    """
+    names = [str(name) for name in opened.schema_arrow.names]
     kinds = {name: str(opened.schema_arrow.field(i).type) for i, name in enumerate(names)}
     for name, kind in kinds.items():
         if kind not in _TYPES:
@@ -106,11 +193,6 @@ def _check_size(file: Path, opened: Any, allowed: Sequence[Kinds]) -> None:
     if allowed and kinds not in allowed:
         columns = ", ".join(f"{name} ({kind})" for name, kind in allowed[0].items())
         raise LogError(f"{file}: has other columns than {columns}")
-    if about.num_row_groups > 1 or len(names) > MOST_COLUMNS or about.num_rows * len(names) > MOST_NUMBERS:
-        raise LogError(
-            f"{file}: has {about.num_rows} rows of {len(names)} columns in {about.num_row_groups} parts; at most"
-            f" {MOST_NUMBERS} numbers in {MOST_COLUMNS} columns and 1 part are read"
-        )
 
 
 def pose_columns(poses: FloatArray, carrier: IntArray) -> Columns:

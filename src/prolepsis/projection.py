@@ -12,6 +12,7 @@ from prolepsis.errors import InputError, LogError, ScenarioError, brief
 from prolepsis.kernels import are_kept
 from prolepsis.log import Log
 from prolepsis.log_files import read_log_files, write_log_files
+from prolepsis.log_tables import refuse_long_run
 from prolepsis.own_robot import OwnRobot
 from prolepsis.saved import read_timeline_files, write_timeline_files
 from prolepsis.scenario import Parameter, Scenario
@@ -24,8 +25,9 @@ from prolepsis.sealed import (
     read_json,
     read_sealed,
     read_text,
-    to_json,
+    write_json,
     write_sealed,
+    write_text,
 )
 from prolepsis.terms import Value, format_value, parse_term
 from prolepsis.threads import one_thread
@@ -87,7 +89,7 @@ class Projection:
 
     def _write(self, path: Path) -> None:
         write_log_files(self.log, path)
-        (path / WORLD).write_text(self.world, encoding="utf-8")
+        write_text(path / WORLD, self.world)
         write_timeline_files(self.timeline, path)
         scenario = self.scenario
         own = scenario.robot if isinstance(scenario.robot, OwnRobot) else None
@@ -99,7 +101,7 @@ class Projection:
         if own is not None:
             scenario = replace(scenario, robot=replace(own, file=names[-1][0]))
         situation = [name for name, _ in names[: len(scenario.situation)]]
-        (path / SCENARIO).write_text(to_json(_scenario_row(scenario, situation)), encoding="utf-8")
+        write_json(path / SCENARIO, _scenario_row(scenario, situation))
 
 
 @one_thread()
@@ -133,10 +135,11 @@ def project(
     knowledge = read.knowledge_base()
     # What physics imports takes a moment, and a wrong scenario is refused before it.
     from prolepsis.fluents import recognize
+    from prolepsis.monitors.frames import PERIOD
     from prolepsis.programs import check_units, read_program
     from prolepsis.robots.loading import load_robot
     from prolepsis.scene import compile_world, compose
-    from prolepsis.simulation import simulate
+    from prolepsis.simulation import TICK, simulate
 
     if any(knowledge.is_a(name, "Liquid") for name in knowledge.objects) and not are_kept():
         tell("compiling the kernels of liquids, once, in about a minute")
@@ -146,6 +149,11 @@ def project(
     program = read_program(read.bound_plan(), replace(scene, folder=read.path.parent))
     tell("building the world")
     world = compile_world(scene)
+    if out is not None and read.duration is not None:
+        # A run without a duration may end soon; of a long one it is told when it is saved.
+        ticks = round(read.duration / TICK)
+        particles = sum(len(pool.position) for pool in scene.pools)
+        refuse_long_run(len(scene.things), ticks, particles, ticks // PERIOD)
     log = simulate(
         world,
         program,

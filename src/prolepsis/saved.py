@@ -8,7 +8,7 @@ from typing import Any, cast
 
 from prolepsis.domain import Domain
 from prolepsis.errors import InputError, LogError, brief
-from prolepsis.sealed import read_json, read_sealed, to_json
+from prolepsis.sealed import read_json, read_sealed, write_json
 from prolepsis.timeline import Timeline
 
 DOMAIN, TIMELINE = "domain.json", "timeline.json"
@@ -86,7 +86,15 @@ def _is_row(row: Any, kinds: tuple[Any, ...]) -> bool:
 
 
 def write_timeline_files(timeline: Timeline, path: Path) -> None:
-    """Write a timeline and what is known of its individuals into an existing folder, unsealed."""
-    (path / DOMAIN).write_text(to_json(asdict(timeline.domain)), encoding="utf-8")
+    """Write a timeline and what is known of its individuals into an existing folder, unsealed.
+
+    Raises:
+        InputError: If it is so large that it could not be read.
+    """
+    if len(timeline.facts) > MOST_FACTS:
+        raise InputError(
+            f"the timeline cannot be saved: it has {len(timeline.facts):,} facts; {MOST_FACTS:,} could be read again"
+        )
+    write_json(path / DOMAIN, asdict(timeline.domain))
     facts = {"dt": timeline.dt, "duration": timeline.duration, "facts": timeline.to_json()}
-    (path / TIMELINE).write_text(to_json(facts), encoding="utf-8")
+    write_json(path / TIMELINE, facts)

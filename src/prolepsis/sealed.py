@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from prolepsis import aside
-from prolepsis.errors import LogError, brief
+from prolepsis.errors import InputError, LogError, brief
 
 FORMAT = "prolepsis"
 FORMAT_VERSION = 1
@@ -98,6 +98,29 @@ def read_json(file: Path) -> Any:
         ValueError: If it is too large, too deep or none, or has numbers that are not finite.
     """
     return _parsed(read_text(file))
+
+
+def write_text(file: Path, text: str) -> None:
+    """Write a text that ``read_text`` reads.
+
+    Raises:
+        InputError: If it is too large.
+    """
+    content = text.encode("utf-8")
+    if len(content) > MOST_TEXT_BYTES:
+        raise InputError(
+            f"{file.name} cannot be saved: it has {len(content)} bytes; {MOST_TEXT_BYTES} could be read again"
+        )
+    file.write_bytes(content)
+
+
+def write_json(file: Path, value: Any) -> None:
+    """Write a value as JSON that ``read_json`` reads.
+
+    Raises:
+        InputError: If it is too large.
+    """
+    write_text(file, to_json(value))
 
 
 def to_json(value: Any) -> str:

@@ -6,7 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from prolepsis import log_tables, simulation
 from prolepsis.cli import main
+from prolepsis.errors import InputError
+from prolepsis.projection import project
 
 SITUATION = """\
 @prefix : <https://w3id.org/prolepsis#> .
@@ -117,3 +120,13 @@ def test_an_unreadable_file(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -
     assert "s.ttl: the Turtle file is not UTF-8 text" in refused(tmp_path, capfd)
     (tmp_path / "scenario.toml").write_bytes(b"\xff\xfe")
     assert "scenario.toml: the scenario is not UTF-8 text" in refused(tmp_path, capfd)
+
+
+def test_a_run_whose_log_could_not_be_saved_is_not_computed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write(tmp_path, scenario=SCENARIO.replace("seed = 1", "duration = 20.0"))
+    monkeypatch.setattr(log_tables, "MOST_BYTES", 2_000_000)
+    monkeypatch.setattr(simulation, "simulate", None)
+    with pytest.raises(InputError, match=r"the log could not be saved: 20,000 ticks of \d+ things .* shorten the run"):
+        project(tmp_path / "scenario.toml", out=tmp_path / "run")
+    with pytest.raises(TypeError):  # It would have been computed, to be asked and forgotten.
+        project(tmp_path / "scenario.toml")

@@ -16,14 +16,16 @@ import pyarrow.parquet as parquet  # pyright: ignore[reportMissingTypeStubs]
 import pytest
 from tests.synthetic import egg_drop_log, wet_log
 
-from prolepsis import log_tables
+from prolepsis import log_checks, log_files, log_tables, sealed
+from prolepsis import saved as saved_timeline
 from prolepsis.cli import main
 from prolepsis.domain import Domain
-from prolepsis.errors import LogError
-from prolepsis.log_files import read_log, write_log_files
+from prolepsis.errors import InputError, LogError
+from prolepsis.log import Log
+from prolepsis.log_files import read_log, write_log, write_log_files
 from prolepsis.log_tables import read_table, write_table
 from prolepsis.projection import Projection
-from prolepsis.saved import write_timeline_files
+from prolepsis.saved import read_timeline, write_timeline_files
 from prolepsis.sealed import MANIFEST, read_sealed, to_json, write_sealed
 from prolepsis.timeline import Fact, make_timeline
 
@@ -358,10 +360,94 @@ def test_a_table_that_would_be_13_gb_is_refused_before_it_is_read(
     assert "at most" in refusal(["render", str(folder), "--strip", str(tmp_path / "a.png")], capfd)
 
 
-def test_a_table_is_refused_by_what_its_description_says(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(log_tables, "MOST_NUMBERS", 1000)
-    monkeypatch.setattr(cast(Any, parquet).ParquetFile, "read", None)
-    with pytest.raises(LogError, match=r"800 rows of 2 columns in 1 parts; at most 1000 numbers"):
+def contacts_of(rows: int) -> Change:
+    """Return the change that repeats one contact; the file stays small."""
+
+    def change(folder: Path) -> None:
+        columns = read_table(folder / "contacts.parquet")
+        repeated = {name: np.full(rows, column[0]) for name, column in columns.items()}
+        cast(Any, parquet).write_table(
+            cast(Any, arrow).table(repeated), folder / "contacts.parquet", row_group_size=rows, compression="zstd"
+        )
+
+    return change
+
+
+def never(*_: Any, **__: Any) -> None:
+    raise AssertionError("a table was unpacked")
+
+
+def test_all_tables_of_a_log_together_are_refused_before_one_is_unpacked(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rows = 400_000
+    contacts_of(rows)(folder)
+    assert (folder / "contacts.parquet").stat().st_size < 100_000
+    seal(folder)
+    assert len(read_log(folder).contacts.tick) == rows
+    # Each table alone would do: what bounds them is their sum.
+    monkeypatch.setattr(log_tables, "MOST_BYTES", rows * 13 * 8 + 1000)
+    monkeypatch.setattr(cast(Any, parquet).ParquetFile, "read", never)
+    with pytest.raises(
+        LogError, match=r"contacts\.parquet: would take 42 MB of memory, and all tables of the log 4\d MB"
+    ):
+        read_log(folder)
+
+
+def test_a_log_that_would_not_be_read_is_not_written(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    log = read_log(folder)
+    monkeypatch.setattr(log_tables, "MOST_BYTES", 100_000)
+    with pytest.raises(InputError, match=r"the log cannot be saved: poses\.parquet would take .* shorten the run"):
+        write_log(log, folder)
+    monkeypatch.undo()
+    assert_same(read_log(folder), log)
+    monkeypatch.setattr(log_checks, "MOST_ACTIONS", 0)
+    with pytest.raises(InputError, match=r"the log cannot be saved: there are 1 actions; allowed: 0"):
+        write_log(log, folder)
+    with pytest.raises(LogError, match="there are 1 actions; allowed: 0"):
+        read_log(folder)
+
+
+def test_a_timeline_that_would_not_be_read_is_not_written(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    timeline = read_timeline(folder)
+    monkeypatch.setattr(saved_timeline, "MOST_FACTS", 0)
+    with pytest.raises(InputError, match="the timeline cannot be saved: it has 1 facts; 0 could be read again"):
+        write_timeline_files(timeline, folder)
+    monkeypatch.undo()
+    monkeypatch.setattr(sealed, "MOST_TEXT_BYTES", 10)
+    with pytest.raises(InputError, match=r"domain\.json cannot be saved: it has \d+ bytes"):
+        write_timeline_files(timeline, folder)
+
+
+def assert_same(one: Log, other: Log) -> None:
+    assert np.array_equal(one.poses, other.poses) and one.actions == other.actions
+
+
+def test_a_description_that_claims_fewer_rows_than_it_has_is_refused(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rows = 400_000
+    contacts_of(rows)(folder)
+    file = folder / "contacts.parquet"
+    content = file.read_bytes()
+    start = len(content) - 8 - int.from_bytes(content[-8:-4], "little")
+    # Whole numbers are twice as large, in groups of seven bits; the number of all rows is the first of this size.
+    claimed = bytes([2 * rows & 0x7F | 0x80, 2 * rows >> 7 & 0x7F | 0x80, 2 * rows >> 14])
+    place = content.index(claimed, start)
+    file.write_bytes(content[:place] + bytes([20 | 0x80, 0x80, 0]) + content[place + 3 :])
+    assert cast(Any, parquet).ParquetFile(file).metadata.num_rows == 10
+    seal(folder)
+    monkeypatch.setattr(cast(Any, parquet).ParquetFile, "read", never)
+    with pytest.raises(LogError, match=r"contacts\.parquet: is described as 10 rows, its parts as others"):
+        read_log(folder)
+
+
+def test_memory_that_runs_short_is_told_in_one_line(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def short(*_: Any) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr(log_files, "check_log", short)
+    with pytest.raises(LogError, match="memory ran short while its log was read"):
         read_log(folder)
 
 
