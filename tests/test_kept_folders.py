@@ -12,14 +12,17 @@ import textwrap
 import time
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from tests.synthetic import egg_drop_log
 
-from prolepsis import aside
-from prolepsis.errors import InputError
+from prolepsis import aside, sealed, simulation
+from prolepsis.cli import main
+from prolepsis.errors import InputError, Note
 from prolepsis.log_files import write_log
+from prolepsis.projection import Projection, project
 from prolepsis.sealed import MANIFEST, read_sealed, write_sealed
 
 
@@ -240,3 +243,62 @@ def test_a_projection_that_is_ended_at_any_moment_leaves_the_old_or_the_new(
             subprocess.run(command("old"), check=True, capture_output=True)
     subprocess.run(command("new"), check=True, capture_output=True)
     assert [file.name for file in run.parent.iterdir()] == ["run"]
+
+
+def test_a_file_that_comes_during_a_run_does_not_cost_it(tmp_path: Path) -> None:
+    (tmp_path / "s.ttl").write_text("@prefix : <https://w3id.org/prolepsis#> .\n:floor a :Floor .")
+    (tmp_path / "s.toml").write_text('situation = "s.ttl"\nplan = "wait(0.02)"\n')
+    write(tmp_path / "run", "old")
+    (tmp_path / "run-2").mkdir()
+
+    def take_note(doing: str) -> None:
+        if doing.startswith("simulating"):
+            (tmp_path / "run" / "notes.txt").write_text("mine")
+
+    with pytest.warns(
+        Note, match=r"saved in .*run-3 instead; .*run: is left alone: prolepsis did not write notes\.txt"
+    ):
+        result = project(tmp_path / "s.toml", out=tmp_path / "run", progress=take_note)
+    assert Projection.load(tmp_path / "run-3").timeline == result.timeline
+    assert words(tmp_path / "run") == "old"
+    assert files(tmp_path / "run-2") == []
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["run", "run-2", "run-3", "s.toml", "s.ttl"]
+
+
+def test_the_command_says_where_it_has_saved(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "s.ttl").write_text("@prefix : <https://w3id.org/prolepsis#> .\n:floor a :Floor .")
+    (tmp_path / "s.toml").write_text('situation = "s.ttl"\nplan = "wait(0.02)"\n')
+    monkeypatch.chdir(tmp_path)
+    simulated = simulation.simulate
+
+    def simulate(*arguments: Any, **named: Any) -> Any:
+        Path("run").write_text("mine")
+        return simulated(*arguments, **named)
+
+    monkeypatch.setattr(simulation, "simulate", simulate)
+    assert main(["project", "s.toml", "--out", "run"]) == 0
+    told = capfd.readouterr()
+    assert told.out.endswith("saved in run-2\n")
+    assert told.err.replace(f"{tmp_path}/", "") == (
+        "prolepsis: note: saved in run-2 instead; run: is a file; give a folder that does not exist or that prolepsis"
+        " wrote\n"
+    )
+    assert Path("run").read_text() == "mine"
+
+
+def test_of_two_that_are_saved_beside_none_is_lost(tmp_path: Path) -> None:
+    places = {aside.made_beside(tmp_path / "run") for _ in range(3)}
+    assert sorted(place.name for place in places) == ["run-2", "run-3", "run-4"]
+
+
+def test_what_is_saved_beside_and_fails_leaves_no_folder(tmp_path: Path) -> None:
+    (tmp_path / "run").write_text("mine")
+
+    def fail(path: Path) -> None:
+        raise OSError
+
+    with pytest.raises(OSError):
+        sealed.write_sealed_beside(tmp_path / "run", fail)
+    assert [file.name for file in tmp_path.iterdir()] == ["run"]

@@ -10,6 +10,7 @@ from __future__ import annotations
 import ctypes
 import errno
 import fcntl
+import itertools
 import os
 import re
 import shutil
@@ -34,6 +35,10 @@ _HERE, _EXCHANGE = -100, 2
 _NOT_HERE = (errno.ENOSYS, errno.EINVAL, errno.ENOTSUP)
 
 
+class TakenError(InputError):
+    """What lies in the place to write is not ours, or is in use."""
+
+
 def check_replaceable(folder: str | Path, ours: Ours) -> Path:
     """Return where ``folder`` really is, if it may be written: absent, empty, or with nothing but what is ours.
 
@@ -52,16 +57,16 @@ def check_replaceable(folder: str | Path, ours: Ours) -> Path:
     put_back(path)
     if path.exists():
         if not path.is_dir():
-            raise InputError(f"{folder}: is a file; give a folder that does not exist or that prolepsis wrote")
+            raise TakenError(f"{folder}: is a file; give a folder that does not exist or that prolepsis wrote")
         others = sorted({file.name for file in path.iterdir()} - set(ours(path)))
         if others:
             more = f" and {len(others) - _SHOWN} more" if len(others) > _SHOWN else ""
-            raise InputError(
+            raise TakenError(
                 f"{folder}: is left alone: prolepsis did not write {', '.join(others[:_SHOWN])}{more}, or not as it is"
                 " now; move it away, or give another folder"
             )
         if os.path.ismount(path):
-            raise InputError(f"{folder}: is a mount point, which cannot be replaced; give a folder within it")
+            raise TakenError(f"{folder}: is a mount point, which cannot be replaced; give a folder within it")
     above = next(each for each in path.parents if each.exists())
     if not (above.is_dir() and os.access(above, os.W_OK | os.X_OK)):
         raise InputError(f"{folder}: cannot be written, for {above} is no folder in which you may write")
@@ -95,6 +100,18 @@ def written_aside(target: Path, ours: Ours | None = None) -> Generator[Path]:
     finally:
         _clear(workplace, target, ours)
         os.close(lock)
+
+
+def made_beside(folder: str | Path) -> Path:
+    """Make an empty folder beside ``folder``, by the first of the names ``folder-2``, ``folder-3`` ... that is free."""
+    path = Path(folder)
+    path = Path(os.path.abspath(path)) if path.name in ("", "..") else path
+    for number in itertools.count(2):
+        beside = path.with_name(f"{path.name}-{number}")
+        with suppress(FileExistsError):
+            beside.mkdir()
+            return beside
+    raise AssertionError("numbers do not end")
 
 
 def put_back(target: Path) -> None:

@@ -33,7 +33,7 @@ MOST_COLUMNS = 10_000
 """Of a table."""
 MOST_BYTES = 2**30
 """Of all tables of a log together once they are unpacked; reading them takes about twice as much memory. The largest
-example, 16 s of a PR2 that pours honey, has 130 MB; an egg that is grasped has 35."""
+example, 16 s of a PR2 that pours water, has 130 MB; an egg that is grasped has 35."""
 
 POSE_COLUMNS = ("x", "y", "z", "qw", "qx", "qy", "qz")
 _VECTORS = ("force", "normal", "point")

@@ -27,6 +27,7 @@ from prolepsis.sealed import (
     read_text,
     write_json,
     write_sealed,
+    write_sealed_beside,
     write_text,
 )
 from prolepsis.terms import Value, format_value, parse_term
@@ -64,7 +65,7 @@ class Projection:
         Raises:
             InputError: If ``folder`` holds something that is not ours.
         """
-        write_sealed(folder, self._write)
+        write_sealed(folder, self.write)
 
     @classmethod
     def load(cls, folder: str | Path) -> Projection:
@@ -87,7 +88,8 @@ class Projection:
         scene = Scene(things=log.things, domain=timeline.domain, gravity=log.gravity)
         return cls(scenario=scenario, scene=scene, log=log, timeline=timeline, world=world)
 
-    def _write(self, path: Path) -> None:
+    def write(self, path: Path) -> None:
+        """Write everything into an existing folder, unsealed."""
         write_log_files(self.log, path)
         write_text(path / WORLD, self.world)
         write_timeline_files(self.timeline, path)
@@ -104,7 +106,6 @@ class Projection:
         write_json(path / SCENARIO, _scenario_row(scenario, situation))
 
 
-@one_thread()
 def project(
     scenario: Scenario | str | Path,
     *,
@@ -117,7 +118,8 @@ def project(
 
     Args:
         scenario: A scenario, or its TOML file.
-        out: Folder to save the projection in.
+        out: Folder to save the projection in. If something that is not ours comes into it meanwhile, the projection is
+            saved beside it (``out-2``), and a ``Note`` says so.
         settings: Values by name, of parameters (``Force``) and of the knowledge base (``eggshell3.friction``).
         progress: Called from time to time with what is being done.
         parameters: More settings of parameters, ``Force=25`` or ``force="force7"``.
@@ -127,6 +129,14 @@ def project(
         InvalidSimulationError: If the physics went unstable.
     """
     read = read_scenario(scenario, {**(settings or {}), **parameters})
+    return project_into(read, out, progress)[0]
+
+
+@one_thread()
+def project_into(
+    read: Scenario, out: str | Path | None, progress: Progress | None = None
+) -> tuple[Projection, Path | None]:
+    """Return what ``project`` does of a scenario that was read, and the folder in which it is saved."""
     if out is not None:
         check_replaceable(out)
 
@@ -166,10 +176,10 @@ def project(
     tell("recognizing")
     timeline = recognize(log, domain=scene.domain)
     result = Projection(scenario=read, scene=scene, log=log, timeline=timeline, world=world.xml())
-    if out is not None:
-        tell("saving")
-        result.save(out)
-    return result
+    if out is None:
+        return result, None
+    tell("saving")
+    return result, write_sealed_beside(out, result.write)
 
 
 def _silent(doing: str) -> None:

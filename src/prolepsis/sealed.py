@@ -12,6 +12,7 @@ import json
 import os
 import re
 import stat
+import warnings
 from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from importlib.metadata import PackageNotFoundError, version
@@ -19,7 +20,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from prolepsis import aside
-from prolepsis.errors import InputError, LogError, brief
+from prolepsis.errors import InputError, LogError, Note, brief
 
 FORMAT = "prolepsis"
 FORMAT_VERSION = 1
@@ -59,6 +60,26 @@ def write_sealed(folder: str | Path, write: Callable[[Path], None]) -> None:
         new.mkdir()
         write(new)
         _write_manifest(new)
+
+
+def write_sealed_beside(folder: str | Path, write: Callable[[Path], None]) -> Path:
+    """Write a sealed folder and return where it is: beside ``folder``, with a note, if something has come into that.
+
+    For what took long to make: its maker has checked at the start that ``folder`` may be replaced.
+    """
+    try:
+        write_sealed(folder, write)
+        return Path(folder)
+    except aside.TakenError as problem:
+        beside = aside.made_beside(folder)
+        try:
+            write_sealed(beside, write)
+        except BaseException:
+            with suppress(OSError):
+                beside.rmdir()
+            raise
+        warnings.warn(f"saved in {beside} instead; {problem}", Note, 3)
+        return beside
 
 
 def read_sealed(folder: str | Path) -> Path:

@@ -31,12 +31,12 @@ def add_to(commands: Any) -> None:
 def run(given: argparse.Namespace) -> int:
     """Project and print the timeline's length; with ``--out``, also where it is."""
     chosen = settings(given.set)
-    from prolepsis.projection import project
+    from prolepsis.projection import project_into, read_scenario
 
     with progress_line(given.progress) as show:
-        result = project(given.scenario, out=given.out, settings=chosen, progress=show)
+        result, saved = project_into(read_scenario(given.scenario, chosen), given.out, show)
     warn_unchecked(result.timeline.domain.unchecked)
     facts = len(result.timeline.facts)
-    where = f", saved in {given.out}" if given.out else "; give --out DIR to keep them"
+    where = f", saved in {saved}" if saved else "; give --out DIR to keep them"
     print(f"{result.log.duration:g} s simulated, {facts} facts recognized{where}")
     return 0
