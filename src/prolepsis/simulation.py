@@ -14,6 +14,7 @@ from prolepsis.log import Action, Detachments, Log
 from prolepsis.monitors.channels import Channels, Watched, chosen_monitors
 from prolepsis.monitors.crossing import crossings
 from prolepsis.monitors.frames import Frames
+from prolepsis.monitors.gaining import Surroundings, gains
 from prolepsis.monitors.recorder import Recorder
 from prolepsis.monitors.sinking import sinkings
 from prolepsis.phenomena import PHENOMENA, Attach, Detachment, Draw
@@ -144,19 +145,21 @@ def simulate(
     cut = [(term, start) for term, starts in running.items() for start in starts]
     actions += [Action(term=term, start=start, end=tick, outcome="cut") for term, start in cut]
     poses, carriers = recorder.pose_columns()
+    contacts, particles = recorder.contact_columns(TICK), frames.columns(state)
     _refuse_passed(things, recorder, poses)
+    _refuse_gained(things, recorder, poses, recorder.surroundings(contacts, particles), np.array(world.scene.gravity))
     return Log(
         dt=TICK,
         things=things,
         time=np.arange(tick, dtype=np.float64) * TICK,
         poses=poses,
         carrier=carriers,
-        contacts=recorder.contact_columns(TICK),
+        contacts=contacts,
         bonds=recorder.bond_columns(),
         detachments=_detachment_columns(detachments),
         channels=channels.columns(),
         actions=tuple(sorted((a for a in actions if a.end > a.start), key=lambda a: (a.start, -a.end, str(a.term)))),
-        particles=frames.columns(state),
+        particles=particles,
         gravity=world.scene.gravity,
     )
 
@@ -222,6 +225,28 @@ def _refuse_passed(things: Sequence[Thing], recorder: Recorder, poses: FloatArra
     if found:
         tick, what = min(found)
         raise InvalidSimulationError(f"at {tick * TICK:.3f} s {what}: contacts are too soft for such speeds or weights")
+
+
+def _refuse_gained(
+    things: Sequence[Thing], recorder: Recorder, poses: FloatArray, around: Surroundings, gravity: FloatArray
+) -> None:
+    """End the run if something has gained energy from nothing.
+
+    Raises:
+        InvalidSimulationError: If so; the message names what did it first, and when.
+    """
+    found = min(
+        gains(things, poses, around, recorder.stretches(), gravity, TICK),
+        key=lambda gain: (gain.tick, gain.thing),
+        default=None,
+    )
+    if found is not None:
+        what = "is thrown back by a liquid with more than" if found.returned else "moves with more energy than"
+        whose = "half of the energy that it came with" if found.returned else "it had or was given"
+        raise InvalidSimulationError(
+            f"at {found.tick * TICK:.3f} s {things[found.thing].name} {what} {whose}: it can rise "
+            f"{found.height * 1000:.0f} mm higher than it should"
+        )
 
 
 def _detachment_columns(rows: list[tuple[int, Detachment]]) -> Detachments:

@@ -11,6 +11,7 @@ RAMP = FLOOR + (
     ":ramp a :Obstacle ; :z 0.3 ; :length 1.0 ; :width 0.3 ; :height 0.02 ; :pitch 20.0 ; :friction {friction!r} . "
 )
 """A board that goes down by 20 degrees towards x; its upper surface is at 0.31064 m in the middle."""
+SPONGE = ":b a :Sponge ; :length 0.03 ; :width 0.03 ; :height 0.03 "
 SCENES: dict[str, tuple[str, float]] = {
     **{
         f"a cube of 5 cm from {high:g} m": (FLOOR + cube("b", 0.05, f":z {high + 0.025!r}"), HARD)
@@ -69,12 +70,17 @@ SCENES: dict[str, tuple[str, float]] = {
         + ball("b", 0.04, ":z 0.5 ; :x 0.01"),
         HARD,
     ),
+    "a hard candy from 0.5 m": (FLOOR + ":b a :MandM ; :z 0.5 .", HARD),
     "an egg from 1 cm": (FLOOR + ":b a :Egg ; :z 0.032 .", HARD),
     "a boiled egg from 1 cm": (FLOOR + ":b a :HardBoiledEgg ; :z 0.032 .", HARD),
     "a cup from 2 cm": (FLOOR + ":b a :Cup ; :z 0.066 .", HARD),
     "a sponge from 0.3 m": (FLOOR + ":b a :Sponge ; :z 0.3 .", HARD),
     "a cube on a sponge from 0.1 m": (TABLE + ":a a :Sponge ; :on :table1 . " + cube("b", 0.05, ":z 0.856"), HARD),
     "a block of 1 g into water": (cup(0.4, cube("b", 0.02, ":z 0.95 ; :mass 0.001")), LIQUID),
+    "a dry sponge into water": (cup(0.5, SPONGE + "; :z 1.0 ."), LIQUID),
+    "a dry sponge from 5 cm into water": (cup(0.5, SPONGE + "; :z 0.81 ."), LIQUID),
+    "a sponge that is let go over water": (cup(0.5, SPONGE + "; :z 0.772 ."), HARD),
+    "a sponge into a bowl of water": (cup(0.5, ":b a :Sponge ; :z 0.9 .", "Bowl"), LIQUID),
     "a wooden cube into water": (cup(0.5, cube("b", 0.02, ":z 0.84")), LIQUID),
     "a steel ball into water": (cup(0.4, ball("b", 0.01, ":z 0.85 ; :density 7800.0")), LIQUID),
     "a wooden ball into a bowl of water": (cup(0.5, ball("b", 0.015, ":z 0.85"), "Bowl"), LIQUID),

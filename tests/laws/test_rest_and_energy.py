@@ -16,6 +16,8 @@ SOFT = "contacts: as stiff as the lighter thing is heavy, so that a heavy one pr
 THROUGH = "contacts: a book sinks in by more than a paper is thick, and meets the table below"
 PUSHED = "liquid: particles that are put round a thing push it before they have settled"
 THROWN = "liquid: coarse particles throw out what is lighter than a few of them"
+SPONGE = "liquid: it throws a light sponge back, if faster than it came the run is invalid"
+SOAKS = "liquid: what a sponge takes up is put anywhere in it, and the energy of wetting is not counted"
 MOVES = {
     "ten sheets of 1 mm": THIN,
     "10 kg on 0.01 kg": SOFT,
@@ -28,7 +30,13 @@ MOVES = {
     **{f"a tower of {count} cubes of 5 cm": SINKS for count in (10, 15, 20)},
     **{f"a tower of {count} flat blocks": SINKS for count in (10, 20)},
 }
-GAINS = {"a block of 1 g into water": THROWN}
+GAINS = {
+    "a block of 1 g into water": THROWN,
+    "a dry sponge into water": SPONGE,
+    "a dry sponge from 5 cm into water": SPONGE,
+    "a sponge into a bowl of water": SPONGE,
+    "a sponge that is let go over water": SOAKS,
+}
 
 pytestmark = pytest.mark.laws
 

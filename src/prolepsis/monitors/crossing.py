@@ -15,6 +15,7 @@ import numpy as np
 
 from prolepsis.fields.solids import Solid, solid_of
 from prolepsis.monitors.matter import Matter, Stretch
+from prolepsis.monitors.turning import matrices
 from prolepsis.scene.world import HIDDEN_ROLES
 from prolepsis.things import BoolArray, FloatArray, Geom, IntArray, Thing
 
@@ -176,7 +177,7 @@ class _Motion:
         return cls(
             poses=poses,
             starts=starts,
-            turned=_matrices(poses[starts][:, :, 3:]),
+            turned=matrices(poses[starts][:, :, 3:]),
             ways=np.add.reduceat(np.concatenate([shift, still]), starts),
             turns=np.pi * np.add.reduceat(np.concatenate([np.sqrt(chord), still]), starts),
             reach=reach,
@@ -252,7 +253,7 @@ class _Motion:
     def _paths(self, things: tuple[int, int], points: FloatArray, ticks: IntArray) -> FloatArray:
         """Return where points of one thing are in the frame of the other, shape (ticks, points, 3)."""
         own, other = (self.poses[ticks, thing] for thing in things)
-        place, turned = _relative(own[:, :3], _matrices(own[:, 3:]), other[:, :3], _matrices(other[:, 3:]))
+        place, turned = _relative(own[:, :3], matrices(own[:, 3:]), other[:, :3], matrices(other[:, 3:]))
         return place[:, None] + points @ turned.transpose(0, 2, 1)
 
 
@@ -292,14 +293,3 @@ def _ball(geom: Geom) -> tuple[FloatArray, float]:
         return np.zeros(3), np.inf
     low, high = solid_of(geom).bounds()
     return (low + high) / 2, float(np.linalg.norm(high - low)) / 2
-
-
-def _matrices(quaternions: FloatArray) -> FloatArray:
-    """Return rotation matrices, shape (..., 3, 3), of unit quaternions, shape (..., 4)."""
-    w, x, y, z = np.moveaxis(quaternions, -1, 0)
-    rows = (
-        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
-        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
-    )
-    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)

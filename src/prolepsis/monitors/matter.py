@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from prolepsis.monitors.bodies import Bodies
 from prolepsis.things import BoolArray, Geom, IntArray, Thing
 
 
@@ -82,3 +83,5 @@ class Stretch:
     """First tick no longer."""
     matter: Matter
     """What can touch something meanwhile."""
+    bodies: Bodies
+    """What moves freely meanwhile, and what is driven."""

@@ -10,12 +10,15 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from prolepsis.engine import mujoco
-from prolepsis.log import Bonds, Contacts
+from prolepsis.log import Bonds, Contacts, Particles
+from prolepsis.monitors.bodies import Bodies
+from prolepsis.monitors.gaining import Surroundings
 from prolepsis.monitors.matter import Matter, Stretch
 from prolepsis.monitors.sinking import LEAST_LIMIT, Overlaps
 from prolepsis.monitors.touching import empty_contacts
+from prolepsis.monitors.turning import product, rotated
 from prolepsis.state import State
-from prolepsis.things import FloatArray, IntArray
+from prolepsis.things import BoolArray, FloatArray, IntArray
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -27,6 +30,7 @@ class _Version:
     body_of: IntArray
     thing_of_geom: IntArray
     matter: Matter
+    bodies: Bodies
 
 
 @dataclass(kw_only=True)
@@ -46,6 +50,8 @@ class Recorder:
         default_factory=dict[tuple[int, int], list[tuple[int, int]]]
     )
     """What stuck to what, from which tick to before which."""
+    wet: list[tuple[BoolArray, FloatArray]] = field(default_factory=list["tuple[BoolArray, FloatArray]"])
+    """Whether a liquid pushes each body, and what each weighs [kg], at each tick of a run with liquids."""
     _seen: int = -1
 
     def note_version(self, state: State) -> None:
@@ -64,6 +70,7 @@ class Recorder:
                 body_of=body_of,
                 thing_of_geom=state.body_thing[state.model.geom_bodyid],
                 matter=Matter.of(state.model, state.world.scene.things),
+                bodies=Bodies.of(state.model, body_of),
             )
         )
 
@@ -97,6 +104,8 @@ class Recorder:
             now, runs = len(self.poses), self.bonds.setdefault(pair, [])
             start = runs.pop()[0] if runs and runs[-1][1] == now else now
             runs.append((start, now + 1))
+        if state.particles is not None:
+            self.wet.append((state.data.xfrc_applied.any(axis=1), state.model.body_mass.copy()))
         self.poses.append((len(self.versions) - 1, state.data.xpos.copy(), state.data.xquat.copy()))
 
     def stretches(self) -> list[Stretch]:
@@ -106,7 +115,9 @@ class Recorder:
         for number, version in enumerate(self.versions):
             ticks = np.flatnonzero(versions == number)
             if len(ticks):
-                found.append(Stretch(start=int(ticks[0]), end=int(ticks[-1]) + 1, matter=version.matter))
+                found.append(
+                    Stretch(start=int(ticks[0]), end=int(ticks[-1]) + 1, matter=version.matter, bodies=version.bodies)
+                )
         return found
 
     def matters(self) -> list[Matter]:
@@ -123,6 +134,15 @@ class Recorder:
             geoms=np.concatenate([np.zeros((0, 2), dtype=np.int64), *solids]),
             depth=-np.concatenate([np.zeros(0), *(row[3] for row in self.deep)]),
         )
+
+    def surroundings(self, contacts: Contacts, particles: Particles) -> Surroundings:
+        """Return what touched what, contacts and liquids being given."""
+        shape = len(self.wet), len(self.versions[0].carrier)
+        wet, mass = np.zeros(shape, dtype=np.bool_), np.zeros(shape)
+        for tick, (pushed, heavy) in enumerate(self.wet):
+            body_of = self.versions[self.poses[tick][0]].body_of
+            wet[tick], mass[tick] = pushed[body_of], heavy[body_of]
+        return Surroundings(contacts=contacts, bonds=self.bond_columns(), wet=wet, mass=mass, particles=particles)
 
     def pose_columns(self) -> tuple[FloatArray, IntArray]:
         """Return poses, shape (T, n, 7), and carriers, shape (T, n)."""
@@ -141,7 +161,7 @@ class Recorder:
             body = version.body_of[version.carrier]
             outer_p, outer_q = position[:, body], turn[:, body]
             inner_p, inner_q = version.offsets[:, :3], version.offsets[:, 3:]
-            block = np.concatenate([outer_p + _rotated(outer_q, inner_p), _product(outer_q, inner_q)], axis=2)
+            block = np.concatenate([outer_p + rotated(outer_q, inner_p), product(outer_q, inner_q)], axis=2)
             # What is no body of its own keeps the pose at which it was last seen.
             block[:, ~carried] = last[~carried]
             poses[ticks] = block
@@ -217,24 +237,3 @@ class Recorder:
             point=summed(point[keep], weight) / total[:, None],
             peak=peak,
         )
-
-
-def _rotated(quaternions: FloatArray, vectors: FloatArray) -> FloatArray:
-    """Return ``vectors``, shape (n, 3), turned by unit ``quaternions``, shape (T, n, 4)."""
-    w, axis = quaternions[..., :1], quaternions[..., 1:]
-    twice = 2 * _cross(axis, vectors)
-    return vectors + w * twice + _cross(axis, twice)
-
-
-def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Return cross products of vectors along the last axis; numpy's own takes three times as long."""
-    x, y, z = a[..., 0], a[..., 1], a[..., 2]
-    u, v, w = b[..., 0], b[..., 1], b[..., 2]
-    return np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=-1)
-
-
-def _product(outer: FloatArray, inner: FloatArray) -> FloatArray:
-    """Return quaternion products, shape (T, n, 4), of ``outer``, shape (T, n, 4), and ``inner``, shape (n, 4)."""
-    w = outer[..., 0] * inner[..., 0] - (outer[..., 1:] * inner[..., 1:]).sum(axis=-1)
-    axis = outer[..., :1] * inner[..., 1:] + inner[..., :1] * outer[..., 1:] + _cross(outer[..., 1:], inner[..., 1:])
-    return np.concatenate([w[..., None], axis], axis=-1)

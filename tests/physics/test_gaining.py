@@ -1,0 +1,64 @@
+"""Nothing moves with more energy than it had or was given, and the run is still an answer."""
+
+from __future__ import annotations
+
+import pytest
+from tests.scenes import run
+
+from prolepsis.errors import InvalidSimulationError
+
+FLOOR = ":floor a :Floor . "
+TABLE = FLOOR + ":table1 a :Table . "
+CUP = TABLE + ":c a :Cup ; :on :table1 ; :contains :l . :l a :Water ; :fill 0.5 . "
+BOWL = TABLE + ":c a :Bowl ; :radius 0.12 ; :on :table1 ; :contains :l . :l a :Water ; :fill 0.5 . "
+SMALL = ":b a :Sponge ; :length 0.03 ; :width 0.03 ; :height 0.03 ; :z 1.0 . "
+
+
+def test_a_sponge_that_leaves_a_bowl_of_water_faster_than_it_came_is_no_answer() -> None:
+    with pytest.raises(InvalidSimulationError, match=r"at 0\.1[0-9]+ s b moves with more energy than it had"):
+        run(BOWL + ":b a :Sponge ; :z 0.9 . ", duration=0.3, particles=1500)
+
+
+@pytest.mark.parametrize(("particles", "how"), [(500, "moves with more energy than"), (1500, "is thrown back")])
+def test_a_small_sponge_that_a_cup_of_water_throws_back_is_no_answer(particles: int, how: str) -> None:
+    with pytest.raises(InvalidSimulationError, match=rf"at 0\.2[0-9]+ s b {how}"):
+        run(CUP + SMALL, duration=0.3, particles=particles)
+
+
+def block(name: str, size: tuple[float, float, float], rest: str) -> str:
+    """Return a block of a length, width and height [m]."""
+    x, y, z = size
+    return f":{name} a :Block ; :length {x!r} ; :width {y!r} ; :height {z!r} ; {rest} . "
+
+
+PASSED_ON = {
+    "an M&M that bounces": FLOOR + ":b a :MandM ; :z 0.5 . ",
+    "a light ball that a heavy one throws up": FLOOR
+    + ":a a :Ball ; :radius 0.05 ; :z 0.35 ; :mass 3.0 . "
+    + ":b a :Ball ; :radius 0.02 ; :z 0.4205 ; :mass 0.03 . ",
+    "a light block that a see-saw throws up": FLOOR
+    + block("a", (0.03, 0.1, 0.03), ":on :floor ; :density 2000.0")
+    + block("plank", (0.6, 0.06, 0.01), ":z 0.0355 ; :density 600.0")
+    + block("b", (0.03, 0.03, 0.03), ":x -0.27 ; :z 0.056 ; :mass 0.01")
+    + block("heavy", (0.05, 0.05, 0.05), ":x 0.26 ; :z 0.3 ; :mass 3.0"),
+    "a ball that rises in water": CUP + ":b a :Ball ; :radius 0.02 ; :density 300.0 ; :z 0.725 . ",
+    "a cup that is hit": CUP + block("b", (0.05, 0.05, 0.05), ":z 1.0 ; :mass 0.5 ; :x 0.01"),
+}
+
+
+@pytest.mark.parametrize("what", PASSED_ON)
+def test_what_is_given_energy_by_others_is_an_answer(what: str) -> None:
+    log = run(PASSED_ON[what], duration=0.6, particles=200)
+    b = log.index("b")
+    assert log.poses[:, b, 2].max() > log.poses[:, b, 2].min() + 0.004
+
+
+def test_what_a_hand_lifts_and_lets_go_is_an_answer() -> None:
+    log = run(
+        TABLE
+        + block("b", (0.04, 0.04, 0.04), ":on :table1 ; :mass 0.05")
+        + ":hand1 a :Gripper ; :pitch 90.0 ; :z 0.722 ; :opening 0.06 .",
+        "sequence([grasp(hand1, b, 5), lift(hand1, 0.1), release(hand1)])",
+        duration=5.0,
+    )
+    assert log.poses[:, log.index("b"), 2].max() > 0.78
