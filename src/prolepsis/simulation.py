@@ -10,11 +10,12 @@ import numpy as np
 
 from prolepsis.engine import mujoco
 from prolepsis.errors import InvalidSimulationError, PlanError, ScenarioError
-from prolepsis.log import Action, Detachments, Log
+from prolepsis.log import Action, Contacts, Detachments, Log
 from prolepsis.monitors.channels import Channels, Watched, chosen_monitors
 from prolepsis.monitors.crossing import crossings
 from prolepsis.monitors.frames import Frames
 from prolepsis.monitors.gaining import Surroundings, gains
+from prolepsis.monitors.reaching import reaches
 from prolepsis.monitors.recorder import Recorder
 from prolepsis.monitors.sinking import sinkings
 from prolepsis.phenomena import PHENOMENA, Attach, Detachment, Draw
@@ -34,6 +35,8 @@ SETTLING = 0.5
 """A run without a given duration goes on for this long after its program has ended [s]."""
 LONGEST = 600.0
 """No run is longer than this [s]; each second of it takes about one to compute."""
+THIN = 0.003
+"""What is thinner than this [m] is named as the reason when something has gone through it."""
 MAX_SPEED = 200.0
 """No thing of a household moves faster [m/s]; what does has diverged."""
 
@@ -146,7 +149,7 @@ def simulate(
     actions += [Action(term=term, start=start, end=tick, outcome="cut") for term, start in cut]
     poses, carriers = recorder.pose_columns()
     contacts, particles = recorder.contact_columns(TICK), frames.columns(state)
-    _refuse_passed(things, recorder, poses)
+    _refuse_passed(things, recorder, poses, contacts)
     _refuse_gained(things, recorder, poses, recorder.surroundings(contacts, particles), np.array(world.scene.gravity))
     return Log(
         dt=TICK,
@@ -208,23 +211,31 @@ def _refuse(state: State, tick: int) -> None:
     raise InvalidSimulationError(f"the simulation became unstable at {tick * TICK:.3f} s at {body}{why}")
 
 
-def _refuse_passed(things: Sequence[Thing], recorder: Recorder, poses: FloatArray) -> None:
-    """End the run if something has gone through solid matter, or stayed in it.
+def _refuse_passed(things: Sequence[Thing], recorder: Recorder, poses: FloatArray, contacts: Contacts) -> None:
+    """End the run if something has gone through solid matter, stayed in it, or touches something through it.
 
     Raises:
         InvalidSimulationError: If so; the message names what did it first, and when.
     """
+    names, stretches = [thing.name for thing in things], recorder.stretches()
     found = [
-        (each.tick, f"{things[each.mover].name} has gone into {things[each.obstacle].name} or through it")
-        for each in crossings(things, poses, recorder.stretches())
+        (each.tick, f"{names[each.mover]} has gone into {names[each.obstacle]} or through it", each.thickness)
+        for each in crossings(things, poses, stretches)
     ]
     found += [
-        (each.tick, f"{things[each.first].name} is pressed {each.depth * 1000:.1f} mm into {things[each.second].name}")
+        (each.tick, f"{names[each.first]} is pressed {each.depth * 1000:.1f} mm into {names[each.second]}", np.inf)
         for each in sinkings(things, recorder.overlaps(), recorder.matters(), TICK)
     ]
+    found += [
+        (each.tick, f"{names[each.first]} reaches {names[each.second]} through {names[each.between]}", each.thickness)
+        for each in reaches(things, poses, contacts, stretches, TICK)
+    ]
     if found:
-        tick, what = min(found)
-        raise InvalidSimulationError(f"at {tick * TICK:.3f} s {what}: contacts are too soft for such speeds or weights")
+        tick, what, thickness = min(found)
+        why = "contacts are too soft for such speeds or weights"
+        if thickness < THIN:
+            why = f"contacts are too soft for what is {thickness * 1000:.2g} mm thick"
+        raise InvalidSimulationError(f"at {tick * TICK:.3f} s {what}: {why}")
 
 
 def _refuse_gained(

@@ -42,13 +42,15 @@ class Crossing:
     """Index of the thing that did."""
     obstacle: int
     """Index of the thing it went into."""
+    thickness: float
+    """How thick the thinner of the two solids is [m]."""
 
 
 def crossings(things: Sequence[Thing], poses: FloatArray, stretches: Sequence[Stretch]) -> Iterator[Crossing]:
     """Yield the first crossing of each pair of things while the model stays the same.
 
-    What comes free of a broken whole weighs grams and is thinner than a contact is soft: it is followed through what is
-    fixed only.
+    What comes free of a broken whole weighs grams and is thinner than a contact is soft: it is not followed through
+    what is driven, as the pads that have just crushed it, nor through its like.
 
     Args:
         things: The things of the run.
@@ -66,7 +68,7 @@ def crossings(things: Sequence[Thing], poses: FloatArray, stretches: Sequence[St
             solids[thing, number] = _Followed.of(things[thing].shape.geoms[number])
         followed = [solids[key] for key in keys]
         motion = _Motion.of(poses[stretch.start : stretch.end + 1], reach)
-        for mover, obstacle in _pairs(matter, small, reach):
+        for mover, obstacle in _pairs(matter, stretch.bodies.driven, small, reach):
             blocks = motion.near(mover, obstacle)
             if not len(blocks):
                 continue
@@ -78,22 +80,24 @@ def crossings(things: Sequence[Thing], poses: FloatArray, stretches: Sequence[St
                 [followed[row] for row in other.tolist()],
                 matter.meet(own, other),
             )
-            ticks = [
-                tick
+            found = [
+                (tick, 2.0 * min(one.half, wall.half))
                 for one, wall, chosen in solid_pairs
                 if (tick := motion.first_within((mover, obstacle), one, wall, chosen)) is not None
             ]
-            if ticks:
-                yield Crossing(tick=stretch.start + min(ticks), mover=mover, obstacle=obstacle)
+            if found:
+                tick, thickness = min(found)
+                yield Crossing(tick=stretch.start + tick, mover=mover, obstacle=obstacle, thickness=thickness)
 
 
-def _pairs(matter: Matter, small: BoolArray, reach: FloatArray) -> Iterator[tuple[int, int]]:
+def _pairs(matter: Matter, driven: BoolArray, small: BoolArray, reach: FloatArray) -> Iterator[tuple[int, int]]:
     """Yield the pairs of a thing that moves and one that it might cross: one that is fixed, or at least as large."""
     rows = {int(thing): int(row) for thing, row in zip(*np.unique(matter.thing, return_index=True), strict=True)}
     for mover, own in rows.items():
         for obstacle, other in rows.items():
-            apart = matter.tree[own] != matter.tree[other] and not (small[mover] or small[obstacle])
-            apart = apart and (reach[mover], mover) < (reach[obstacle], obstacle)
+            apart = matter.tree[own] != matter.tree[other] and not small[obstacle]
+            smaller = (reach[mover], mover) < (reach[obstacle], obstacle)
+            apart = apart and (not driven[obstacle] if small[mover] else smaller)
             if mover != obstacle and not matter.fixed[own] and (matter.fixed[other] or apart):
                 yield mover, obstacle
 
@@ -220,12 +224,13 @@ class _Motion:
         ways += self.turns[blocks, obstacle] * (np.linalg.norm(place, axis=1) + self.reach[mover] + ways)
         middles = place + np.einsum("bij,sj->sbi", turned, np.array([each.points[0] for each in solids]))
         spread = np.array([each.spread for each in solids])
-        for w, wall in enumerate(walls):
-            apart = middles - wall.middle
-            near = np.einsum("sbc,sbc->sb", apart, apart) < (wall.radius + spread[:, None] + ways) ** 2
-            near &= meet[:, w, None]
-            for s in np.flatnonzero(near.any(axis=1)).tolist():
-                own, some = solids[s], np.flatnonzero(near[s])
+        centres, radius = np.array([each.middle for each in walls]), np.array([each.radius for each in walls])
+        for s, own in enumerate(solids):
+            apart = middles[s] - centres[:, None]
+            near = np.einsum("wbc,wbc->wb", apart, apart) < (radius[:, None] + spread[s] + ways) ** 2
+            near &= meet[s, :, None]
+            for w in np.flatnonzero(near.any(axis=1)).tolist():
+                wall, some = walls[w], np.flatnonzero(near[w])
                 most = own.most(wall)
                 some = some[wall.distance(middles[s, some]) - own.spread - ways[some] < -most.min()]
                 if len(some):
