@@ -203,7 +203,7 @@ NOT_CROSSED = {
     "a cube of 1 cm from a metre": TABLE + block("b", (0.01, 0.01, 0.01), ":z 1.7"),
     "a lid of 2 mm from half a metre": TABLE + block("b", (0.1, 0.1, 0.002), ":z 1.2"),
     "card under a heavy book": TABLE
-    + block("b", (0.2, 0.1, 0.0015), ":on :table1")
+    + block("b", (0.2, 0.1, 0.002), ":on :table1")
     + block("book", (0.2, 0.15, 0.04), ":on :b ; :mass 2.0"),
     "a heavy book that falls on a sheet": TABLE
     + block("b", (0.2, 0.1, 0.002), ":on :table1")
