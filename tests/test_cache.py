@@ -122,10 +122,15 @@ def test_a_cache_that_belongs_to_somebody_else_is_not_used(
     assert "prolepsis: note: " in capfd.readouterr().err
 
 
-def test_a_cache_that_cannot_be_written_only_costs_time(root: Path) -> None:
+def test_a_cache_that_cannot_be_written_only_costs_time_and_says_so_once(
+    root: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
     root.parent.write_text("a file where the cache should be")
     assert (array() == RIGHT).all()
     assert (array() == RIGHT).all()
+    (line,) = capfd.readouterr().err.splitlines()
+    assert line.startswith(f"prolepsis: note: {root / 'arrays'}: nothing can be kept there (")
+    assert line.endswith("so what takes long is computed at each run; XDG_CACHE_HOME names another folder")
 
 
 def test_a_full_disk_only_costs_time_and_leaves_no_part(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -48,7 +48,7 @@ def read_kept(file: Path) -> bytes | None:
 
 def keep(file: Path, content: bytes) -> None:
     """Keep something for the next time, if that is possible; whoever reads meanwhile meets the old or the new."""
-    with suppress(OSError):
+    try:
         for each in reversed((file.parent, *file.parent.parents)):
             # Only this user may change what is kept; `parents=True` would not see to that on the way.
             each.mkdir(mode=0o700, exist_ok=True)
@@ -62,6 +62,11 @@ def keep(file: Path, content: bytes) -> None:
         finally:
             with suppress(FileNotFoundError):
                 os.unlink(part)
+    except OSError as error:
+        note(
+            f"{file.parent}: nothing can be kept there ({error.strerror}), so what takes long is computed at each run;"
+            " XDG_CACHE_HOME names another folder"
+        )
 
 
 def note(text: str) -> None:

@@ -18,6 +18,8 @@ INTERRUPTED = 130
 """As shells report a process that was ended by Ctrl-C."""
 TRACEBACK = "--traceback"
 """Option of every command."""
+LEAST_MEMORY = 512
+"""Address space without which numerical libraries end the process as they are loaded [MB]."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -75,6 +77,8 @@ def _run(given: Sequence[str]) -> int:
         from prolepsis.commands.parser import parser
 
         read = parser().parse_args(given)
+        if (room := _memory()) < LEAST_MEMORY:
+            return _tell(f"{room} MB of memory are allowed (ulimit -v); needed: {LEAST_MEMORY} MB", BAD_INPUT)
         with notes_told():
             return read.run(read)
     except (KeyboardInterrupt, SystemExit, GeneratorExit):
@@ -84,6 +88,14 @@ def _run(given: Sequence[str]) -> int:
             # A library that was being loaded has made an error of its own of it.
             raise _Interrupted from error
         return _refuse(error, given)
+
+
+def _memory() -> float:
+    """Return how much memory may be addressed [MB]."""
+    import resource
+
+    limit = resource.getrlimit(resource.RLIMIT_AS)[0]
+    return float("inf") if limit == resource.RLIM_INFINITY else limit >> 20
 
 
 def _refuse(error: BaseException, given: Sequence[str]) -> int:
@@ -98,6 +110,9 @@ def _refuse(error: BaseException, given: Sequence[str]) -> int:
         case OSError(strerror=str(reason)) if not isinstance(error, BrokenPipeError):
             names = [os.fsdecode(name) for name in (error.filename, error.filename2) if isinstance(name, str | bytes)]
             return _tell(": ".join([*names, reason]), BAD_INPUT)
+        case _ if isinstance(error, MemoryError) or "allocate memory" in str(error):
+            # MuJoCo and numpy's arrays have words of their own for it.
+            return _tell("memory ran short: allow more of it (ulimit -v), or make the scenario smaller", BAD_INPUT)
         case _:
             return _fail(error, given)
 

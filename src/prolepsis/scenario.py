@@ -12,6 +12,7 @@ from pathlib import Path
 
 from prolepsis.errors import InputError, PlanError, ScenarioError, UnknownNameError, brief, brief_list
 from prolepsis.knowledge import KnowledgeBase
+from prolepsis.knowledge.situation import MOST_INDIVIDUALS
 from prolepsis.knowledge.turtle import Document, parse_turtle
 from prolepsis.own_robot import OwnRobot
 from prolepsis.scenario_file import DEFAULT_PARTICLES, ParameterTable, read_file, read_robot
@@ -168,7 +169,7 @@ class Scenario:
         Raises:
             UnknownNameError: If a parameter or a knowledge value names nothing that is there.
         """
-        base = KnowledgeBase.load(*self._robot_sources(), *self.situation)
+        base = KnowledgeBase.load(*self._robot_sources(), *self.situation, most=MOST_INDIVIDUALS)
         for name, parameter in self.parameters.items():
             if isinstance(parameter.value, str) and parameter.value not in base.individuals:
                 raise UnknownNameError.of(

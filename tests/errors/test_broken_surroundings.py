@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from prolepsis.cli import main
+
 TURTLE = """@prefix : <https://w3id.org/prolepsis#> .
 :floor a :Floor . :Würfel a :Block ; :on :floor ; :length 0.05 ; :width 0.05 ; :height 0.05 .
 """
@@ -138,3 +140,24 @@ def test_pictures_that_cannot_be_saved_are_refused(saved: Path) -> None:
     assert (status, out) == (2, "")
     assert errors.endswith("File name too long\n")
     assert len(errors.splitlines()) == 1
+
+
+def test_too_little_memory_is_told_in_one_line(saved: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    limited = 'ulimit -v 300000; exec "$@"'
+    done = subprocess.run(
+        ["bash", "-c", limited, "bash", sys.executable, "-m", "prolepsis", "project", "s.toml"],
+        capture_output=True,
+        text=True,
+        cwd=saved,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (
+        2,
+        "prolepsis: 292 MB of memory are allowed (ulimit -v); needed: 512 MB\n",
+    )
+
+    def run_short(*arguments: object, **named: object) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr("prolepsis.saved.read_timeline", run_short)
+    assert main(["timeline", str(saved / "run")]) == 2

@@ -102,3 +102,17 @@ def test_an_error_in_a_mesh_repeats_nothing_of_it(tmp_path: Path) -> None:
     with pytest.raises(InputError) as caught:
         read_surface(tmp_path / "m.obj")
     assert "secret" not in str(caught.value)
+
+
+def test_too_many_individuals_are_refused_before_anything_is_concluded_of_them(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    def conclude(*arguments: object, **named: object) -> None:
+        raise AssertionError("they were counted too late")
+
+    monkeypatch.setattr("prolepsis.knowledge.knowledge_base.infer_types", conclude)
+    blocks = "".join(f":b{k} a :Block ; :x {k} .\n" for k in range(4001))
+    (tmp_path / "s.ttl").write_text(f"@prefix : <https://w3id.org/prolepsis#> .\n{blocks}")
+    (tmp_path / "s.toml").write_text('situation = "s.ttl"\nplan = "wait(0.1)"\n')
+    assert main(["project", str(tmp_path / "s.toml")]) == 2
+    assert capfd.readouterr().err.strip().endswith("s.ttl: has 4001 individuals; allowed: 4000")

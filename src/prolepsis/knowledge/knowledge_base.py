@@ -36,12 +36,13 @@ class KnowledgeBase:
     """(individual, property) to a value that replaces whatever else is known."""
 
     @classmethod
-    def load(cls, *sources: Path | str | Document, check: bool = True) -> KnowledgeBase:
+    def load(cls, *sources: Path | str | Document, check: bool = True, most: int | None = None) -> KnowledgeBase:
         """Return the knowledge base of the built-in ontology and further Turtle files.
 
         Args:
             sources: Paths of the Turtle files of a situation, or of further classes; or what was read already.
             check: Whether to refuse an inconsistent one; only for looking at what is wrong.
+            most: How many individuals a file may have, which is found before any reasoning; any number if None.
 
         Raises:
             UnknownNameError: If a class, property or individual is not declared.
@@ -51,7 +52,7 @@ class KnowledgeBase:
         documents = documents_of([Path(s) if isinstance(s, str) else s for s in sources])
         vocabulary = read_vocabulary(documents)
         refuse_unknown_names(documents, vocabulary)
-        situation = read_situation(documents, vocabulary)
+        situation = read_situation(documents, vocabulary, most)
         types = infer_types(documents, vocabulary, situation, check=check)
         base = cls(vocabulary=vocabulary, situation=situation, types=types, documents=documents, overrides={})
         if check:

@@ -15,6 +15,8 @@ from prolepsis.knowledge.written import read_value
 
 INVERSES = {"partOf": "hasPart", "supports": "on"}
 """Properties that say what another one says, from the other end; only the other one is kept."""
+MOST_INDIVIDUALS = 4000
+"""Individuals of what is simulated: twice as many as there may be things that move; to look further would take long."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -70,12 +72,17 @@ class Situation:
         object.__setattr__(self, "said_with", {key: tuple(sorted(names)) for key, names in subjects.items()})
 
 
-def read_situation(documents: tuple[Document, ...], vocabulary: Vocabulary) -> Situation:
+def read_situation(documents: tuple[Document, ...], vocabulary: Vocabulary, most: int | None = None) -> Situation:
     """Return what ``documents`` say of individuals, with the default parts made.
+
+    Args:
+        documents: The ontology, and what a situation consists of.
+        vocabulary: Its classes and properties.
+        most: How many individuals a situation may have; any number if None.
 
     Raises:
         UnknownNameError: If an individual has no class, or a relation names one that is not there.
-        KnowledgeError: If a value is wrong, or the parts are no trees.
+        KnowledgeError: If a value is wrong, or the parts are no trees, or there are too many individuals.
     """
     classes: dict[str, tuple[str, ...]] = {}
     places: dict[str, str] = {}
@@ -83,7 +90,10 @@ def read_situation(documents: tuple[Document, ...], vocabulary: Vocabulary) -> S
     for document in documents:
         if not document.built_in:
             _refuse_misplaced(document, vocabulary)
-        for iri in _individuals(document, vocabulary):
+        individuals = _individuals(document, vocabulary)
+        if most is not None and len(individuals) > most:
+            raise KnowledgeError(f"{document.path}: has {len(individuals)} individuals; allowed: {most}")
+        for iri in individuals:
             name = local_name(iri)
             if iris.setdefault(name, iri) != iri:
                 raise KnowledgeError(

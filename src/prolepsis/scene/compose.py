@@ -11,6 +11,7 @@ import numpy as np
 from prolepsis.engine import mujoco
 from prolepsis.errors import KnowledgeError, brief_list
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
+from prolepsis.knowledge.situation import MOST_INDIVIDUALS
 from prolepsis.robots.hand import HAND
 from prolepsis.robots.robot import Robot
 from prolepsis.scenario_file import DEFAULT_PARTICLES
@@ -29,8 +30,6 @@ from prolepsis.shapes.mesh import mesh
 from prolepsis.things import Quaternion, Shape, Thing
 from prolepsis.threads import one_thread
 
-MOST_INDIVIDUALS = 4000
-"""Individuals of a situation: twice as many as there may be things that move, and looking further would take long."""
 ROLES = (
     "Gripper",
     "Container",
