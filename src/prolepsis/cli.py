@@ -110,8 +110,8 @@ def _refuse(error: BaseException, given: Sequence[str]) -> int:
         case OSError(strerror=str(reason)) if not isinstance(error, BrokenPipeError):
             names = [os.fsdecode(name) for name in (error.filename, error.filename2) if isinstance(name, str | bytes)]
             return _tell(": ".join([*names, reason]), BAD_INPUT)
-        case _ if isinstance(error, MemoryError) or "allocate memory" in str(error):
-            # MuJoCo and numpy's arrays have words of their own for it.
+        case _ if _memory() < float("inf") and (isinstance(error, MemoryError) or "allocate memory" in str(error)):
+            # MuJoCo has words of its own for it. Without a limit, whoever asks for too much is at fault.
             return _tell("memory ran short: allow more of it (ulimit -v), or make the scenario smaller", BAD_INPUT)
         case _:
             return _fail(error, given)

@@ -160,4 +160,5 @@ def test_too_little_memory_is_told_in_one_line(saved: Path, monkeypatch: pytest.
         raise MemoryError
 
     monkeypatch.setattr("prolepsis.saved.read_timeline", run_short)
+    monkeypatch.setattr("prolepsis.cli._memory", lambda: 1000.0)
     assert main(["timeline", str(saved / "run")]) == 2
