@@ -20,6 +20,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from prolepsis.errors import InputError
+from prolepsis.text_files import path_of
 
 Ours = Callable[[Path], Collection[str]]
 """Returns the names of the files in a folder that prolepsis wrote, as they are, in an order to delete them."""
@@ -45,9 +46,10 @@ def check_replaceable(folder: str | Path, ours: Ours) -> Path:
     Raises:
         InputError: If something else is there, or it could not be written.
     """
+    path = path_of(folder, "folder to save in")
     if not str(folder):
         raise InputError("the folder to write has no name")
-    path = Path(os.path.realpath(folder))
+    path = Path(os.path.realpath(path))
     try:
         (path.parent / f".{path.name}.unsaved-longest").lstat()
     except (FileNotFoundError, NotADirectoryError):  # what is above tells more

@@ -9,7 +9,7 @@ from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from prolepsis.errors import InputError, InvalidSimulationError, ProlepsisError, error_line
+from prolepsis.errors import InputError, InvalidSimulationError, ProlepsisError, brief, error_line
 from prolepsis.outcome import Grasp, judge_grasp
 from prolepsis.projection import Progress, project, read_scenario
 from prolepsis.scenario import Scenario
@@ -118,6 +118,8 @@ def sweep(
     Raises:
         InputError: If the scenario or the name of a value is wrong, so that no run could succeed.
     """
+    if not isinstance(over, Mapping) or any(isinstance(v, str) or not isinstance(v, Sequence) for v in over.values()):
+        raise InputError(f"values to sweep over are lists by name, as {{'Force': [5, 20]}}, not {brief(over)}")
     if not over or not all(over.values()):
         raise InputError("there is nothing to sweep over; give at least one name with at least one value")
     names = list(over)

@@ -128,6 +128,8 @@ def project(
         InputError: If anything given is wrong; the subclass tells what.
         InvalidSimulationError: If the physics went unstable.
     """
+    if not isinstance(settings, Mapping | None):  # pyright: ignore[reportUnnecessaryIsInstance]
+        raise InputError(f"settings are numbers or texts by name, as {{'Force': 5.0}}, not {brief(settings)}")
     read = read_scenario(scenario, {**(settings or {}), **parameters})
     return project_into(read, out, progress)[0]
 

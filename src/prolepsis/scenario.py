@@ -17,7 +17,7 @@ from prolepsis.knowledge.turtle import Document, parse_turtle
 from prolepsis.own_robot import OwnRobot
 from prolepsis.scenario_file import DEFAULT_PARTICLES, ParameterTable, read_file, read_robot
 from prolepsis.terms import PARTIAL_LIST, Term, Value, Variable, parse_term
-from prolepsis.text_files import is_file
+from prolepsis.text_files import is_file, path_of
 from prolepsis.units import read_quantity, si_symbol, to_float, to_si, unit_of
 
 FEWEST_PARTICLES, MOST_PARTICLES = 20, 200_000
@@ -117,7 +117,7 @@ class Scenario:
             PlanError: If the plan cannot be read.
             UnknownNameError: If a setting names no parameter.
         """
-        path = Path(path)
+        path = path_of(path, "scenario", ScenarioError)
         content = read_file(path)
         files = [content.situation] if isinstance(content.situation, str) else content.situation
         situation = tuple(path.parent / name for name in files)
@@ -146,6 +146,10 @@ class Scenario:
             UnknownNameError: If a setting names no parameter.
             ScenarioError: If a value has the wrong unit.
         """
+        if not all(map(_is_setting, settings.items())):
+            raise ScenarioError(
+                f"{self.path}: settings are numbers or texts by name, as {{'Force': 5.0}}, not {brief(settings)}"
+            )
         parameters, knowledge = dict(self.parameters), dict(self.knowledge)
         numbers = {"particles": self.particles, "seed": self.seed}
         for name, value in settings.items():
@@ -262,6 +266,8 @@ def _setting(value: str | float, old: Parameter, where: str) -> Parameter:
 
 
 def _whole(value: str | float, where: str) -> int:
+    if isinstance(value, bool):
+        raise ScenarioError(f"{where}: must be a whole number")
     try:
         # Beyond 2^53 a float is not every whole number.
         return int(value) if isinstance(value, str) and value.strip().isdigit() else _whole_float(value)
@@ -282,3 +288,8 @@ def _plain(value: bool | float | str) -> float | str:
     if isinstance(value, str):
         return value
     return to_float(value)
+
+
+def _is_setting(item: tuple[object, object]) -> bool:
+    name, value = item
+    return isinstance(name, str) and isinstance(value, str | int | float)

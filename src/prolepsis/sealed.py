@@ -21,6 +21,7 @@ from typing import Any, cast
 
 from prolepsis import aside
 from prolepsis.errors import InputError, LogError, Note, brief
+from prolepsis.text_files import path_of
 
 FORMAT = "prolepsis"
 FORMAT_VERSION = 1
@@ -56,7 +57,7 @@ def write_sealed(folder: str | Path, write: Callable[[Path], None]) -> None:
     Raises:
         InputError: If ``folder`` holds something that is not ours, or no longer as we wrote it.
     """
-    with aside.written_aside(Path(folder), _unaltered) as new:
+    with aside.written_aside(path_of(folder, "folder to save in"), _unaltered) as new:
         new.mkdir()
         write(new)
         _write_manifest(new)
@@ -88,7 +89,7 @@ def read_sealed(folder: str | Path) -> Path:
     Raises:
         LogError: If the folder is not one, is not whole, or is of another version.
     """
-    path = Path(folder)
+    path = path_of(folder, "saved folder", LogError)
     aside.put_back(Path(os.path.realpath(path)))
     if path.is_file():
         raise LogError(f"{path}: is a file; needed: a folder that `prolepsis project SCENARIO --out DIR` saved")

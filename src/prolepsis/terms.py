@@ -11,6 +11,8 @@ import math
 import re
 from dataclasses import dataclass
 
+from prolepsis.errors import InputError, brief
+
 
 @dataclass(frozen=True, slots=True)
 class Variable:
@@ -113,6 +115,8 @@ def parse_term(text: str, *, where: str = "term") -> Value:
     Raises:
         InputError: With the position and what was expected, if the text is not one term.
     """
+    if not isinstance(text, str):  # pyright: ignore[reportUnnecessaryIsInstance]
+        raise InputError(f"{where}: a term is read from text, not from {brief(type(text).__name__)}")
     from prolepsis.term_reader import read_term
 
     return read_term(text, where)
@@ -143,7 +147,10 @@ def _escape(character: str) -> str:
 
 def _format_number(number: int | float) -> str:
     if not isinstance(number, float):
-        return str(int(number))
+        try:
+            return str(int(number))
+        except ValueError:
+            raise InputError(f"a number of some {int(number).bit_length() * 3 // 10:,} digits is too long") from None
     if math.isnan(number):
         return "1.5NaN"
     if math.isinf(number):

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import stat
+from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 from prolepsis.errors import InputError, brief
 
@@ -16,6 +19,22 @@ _KINDS = {
 }
 _LONGEST = 4096
 """Characters of a path that a message shows; the system opens no longer one."""
+
+
+def path_of(given: Any, what: str, error: type[InputError] = InputError) -> Path:
+    """Return the path that a caller gave for ``what``.
+
+    Raises:
+        InputError: If it is none: neither text nor a path, or with a zero byte or more letters than any system takes.
+    """
+    name: Any = None
+    with suppress(TypeError):
+        name = os.fspath(given)
+    if not isinstance(name, str):
+        raise error(f"{what}: a path is text or a pathlib.Path, not {brief(given.__class__.__name__)}")
+    if "\0" in name or len(name) > _LONGEST:
+        raise error(f"{what}: {brief(repr(name))} is no path: it has a zero byte, or more than {_LONGEST} letters")
+    return Path(name)
 
 
 def is_file(path: Path) -> bool:

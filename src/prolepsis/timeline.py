@@ -19,8 +19,9 @@ from prolepsis.terms import Term, Value
 Kind = Literal["fluent", "event"]
 Argument = str | int | float
 Evidence = Mapping[str, "float | str"]
-_GREATEST = 1e300
-"""What is greater is no number of a fact."""
+_GREATEST, _LONGEST = 1e300, 1e15
+"""What is greater is no number of a fact, and no time [s]."""
+_KINDS = ("fluent", "event")
 
 
 def _no_evidence() -> dict[str, float | str]:
@@ -62,6 +63,18 @@ class Timeline:
     """End of the run [s]."""
     domain: Domain = Domain()
     """What queries can read of the individuals."""
+
+    def __post_init__(self) -> None:
+        """Refuse what is no timeline, before it is asked.
+
+        Raises:
+            InputError: If a fact is none, or the tick or the duration is no length of time.
+        """
+        for what, time in (("dt", self.dt), ("duration", self.duration)):
+            if not _is_number(time) or not 0 < time < _LONGEST:
+                raise InputError(f"timeline, {what}: a time above 0 s, not {brief(time)}")
+        for number, fact in enumerate(self.facts, start=1):
+            _refuse_no_fact(fact, number)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Timeline):
@@ -139,6 +152,11 @@ def make_timeline(facts: Iterable[Fact], *, dt: float, duration: float, domain: 
     Raises:
         InputError: If a time is not finite, or a fact ends before it starts.
     """
+    if not _is_number(dt) or not 0 < dt < _LONGEST:
+        raise InputError(f"timeline, dt: a time above 0 s, not {brief(dt)}")
+    facts = tuple(facts)
+    for number, fact in enumerate(facts, start=1):
+        _refuse_no_fact(fact, number)
     ordered = sorted((_at_least_a_tick(fact, dt) for fact in facts), key=lambda f: (_identity(f), f.start, f.end))
     maximal = (whole for _, same in groupby(ordered, key=_identity) for whole in _merge(same, dt / 2))
     by_time = sorted(maximal, key=lambda f: (f.start, f.end, *_identity(f)))
@@ -195,9 +213,31 @@ def _read_fact(row: Any, number: int) -> Fact:
     kind, name, start, end = (table.get(key) for key in ("kind", "type", "start", "end"))
     args: Any = table.get("args") or ()
     evidence: Any = table.get("evidence") or {}
-    if kind not in ("fluent", "event"):
+    if not isinstance(kind, str) or kind not in _KINDS:
         raise InputError(f"timeline, fact {number}: no kind {brief(repr(kind))}; known: fluent, event")
-    if not (
+    if not _is_fact(name, start, end, args, evidence):
+        raise InputError(f"timeline, fact {number}: not a fact: {brief(repr(table))}")
+    return Fact(
+        kind=kind,
+        type=cast(str, name),
+        args=tuple(cast("list[Argument]", args)),
+        start=float(cast(float, start)),
+        end=float(cast(float, end)),
+        evidence=dict(cast("Mapping[str, float | str]", evidence)),
+    )
+
+
+def _refuse_no_fact(fact: Any, number: int) -> None:
+    if not isinstance(fact, Fact):
+        raise InputError(f"timeline, fact {number}: not a fact: {brief(fact)}")
+    if fact.kind not in _KINDS:
+        raise InputError(f"timeline, fact {number}: no kind {brief(fact.kind)}; known: fluent, event")
+    if not _is_fact(fact.type, fact.start, fact.end, fact.args, fact.evidence):
+        raise InputError(f"timeline, fact {number}: not a fact: {brief(fact)}")
+
+
+def _is_fact(name: object, start: object, end: object, args: object, evidence: object) -> bool:
+    return (
         isinstance(name, str)
         and _is_number(start)
         and _is_number(end)
@@ -206,15 +246,6 @@ def _read_fact(row: Any, number: int) -> Fact:
         and isinstance(evidence, Mapping)
         and all(isinstance(key, str) for key in cast("Mapping[Any, Any]", evidence))
         and all(isinstance(each, str) or _is_number(each) for each in cast("Mapping[Any, Any]", evidence).values())
-    ):
-        raise InputError(f"timeline, fact {number}: not a fact: {brief(repr(table))}")
-    return Fact(
-        kind=kind,
-        type=name,
-        args=tuple(cast("list[Argument]", args)),
-        start=float(cast(float, start)),
-        end=float(cast(float, end)),
-        evidence=dict(cast("Mapping[str, float | str]", evidence)),
     )
 
 

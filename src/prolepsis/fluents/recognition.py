@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from prolepsis.domain import Domain
+from prolepsis.errors import LogError, brief
 from prolepsis.fluents.actions import action_facts
 from prolepsis.fluents.observation import observe
 from prolepsis.fluents.registry import GROUNDINGS
@@ -18,7 +19,13 @@ def recognize(log: Log, *, domain: Domain | None = None) -> Timeline:
     Args:
         log: What a run, a rollout or a recording left behind.
         domain: What is known of the individuals, for queries; without it, what the log's things say.
+
+    Raises:
+        LogError: If it is given something else than a log.
     """
+    if not isinstance(log, Log):  # pyright: ignore[reportUnnecessaryIsInstance]
+        given = brief(type(log).__name__)
+        raise LogError(f"a log is recognized, as `read_log` or `Log.from_mujoco` gives it, not {given}")
     observation = observe(log)
     facts: list[Fact] = [fact for grounding in GROUNDINGS for fact in grounding(observation)]
     facts += action_facts(observation)

@@ -18,6 +18,7 @@ from prolepsis.knowledge.turtle import Document, documents_of
 from prolepsis.knowledge.values import Known
 from prolepsis.knowledge.vocabulary import Default, Vocabulary
 from prolepsis.knowledge.written import read_value
+from prolepsis.text_files import path_of
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -49,7 +50,9 @@ class KnowledgeBase:
             KnowledgeError: If a file, a value or the structure of parts is wrong.
             InconsistentError: If the axioms contradict each other.
         """
-        documents = documents_of([Path(s) if isinstance(s, str) else s for s in sources])
+        documents = documents_of(
+            [s if isinstance(s, Document) else path_of(s, "Turtle file", KnowledgeError) for s in sources]
+        )
         vocabulary = read_vocabulary(documents)
         refuse_unknown_names(documents, vocabulary)
         situation = read_situation(documents, vocabulary, most)

@@ -15,7 +15,7 @@ import weakref
 from functools import lru_cache
 from pathlib import Path
 
-from prolepsis.errors import GoalError, GoalLimitError, InputError, Note
+from prolepsis.errors import GoalError, GoalLimitError, InputError, Note, brief
 from prolepsis.logic.process import ProcessLost, PrologProcess
 from prolepsis.logic.refusals import refusal, shown
 from prolepsis.logic.rules import read_rules, rule_refusal
@@ -146,6 +146,8 @@ class Session:
         self, timeline: Timeline, goal: str, *, limit: int | None = None, time_limit: float = 10.0
     ) -> list[dict[str, Value]]:
         """Return the answers to ``goal`` about a timeline; see ``Timeline.ask``."""
+        if not isinstance(goal, str):  # pyright: ignore[reportUnnecessaryIsInstance]
+            raise GoalError(f"a goal is text, as 'holds(F, T)', not {brief(type(goal).__name__)}")
         goal = goal.strip().removeprefix("?-").lstrip()  # as docs and Prolog's own prompt write it
         _check_question(goal, limit, time_limit)
         try:
@@ -260,9 +262,9 @@ def shared_session() -> Session:
 
 def _check_question(goal: str, limit: object, time_limit: float) -> None:
     if limit is not None and (not isinstance(limit, int) or isinstance(limit, bool) or limit < 1):
-        raise GoalError(f"limit: a whole number of answers, at least 1, not {limit!r}")
-    if not 0 < time_limit <= LONGEST:
-        raise GoalError(f"time_limit: a number of seconds above 0 and at most {LONGEST:g}, not {time_limit!r}")
+        raise GoalError(f"limit: a whole number of answers, at least 1, not {brief(limit)}")
+    if not isinstance(time_limit, int | float) or not 0 < time_limit <= LONGEST:  # pyright: ignore[reportUnnecessaryIsInstance]
+        raise GoalError(f"time_limit: a number of seconds above 0 and at most {LONGEST:g}, not {brief(time_limit)}")
     if len(goal) > LONGEST_GOAL:
         raise GoalError(f"the goal has {len(goal):,} characters; at most {LONGEST_GOAL:,} are read")
     for place, character in enumerate(goal, start=1):
