@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import cast
 
 from prolepsis.errors import InputError, InvalidSimulationError, ProlepsisError, brief, error_line
 from prolepsis.outcome import Grasp, judge_grasp
@@ -118,7 +119,7 @@ def sweep(
     Raises:
         InputError: If the scenario or the name of a value is wrong, so that no run could succeed.
     """
-    if not isinstance(over, Mapping) or any(isinstance(v, str) or not isinstance(v, Sequence) for v in over.values()):
+    if not _is_over(over):
         raise InputError(f"values to sweep over are lists by name, as {{'Force': [5, 20]}}, not {brief(over)}")
     if not over or not all(over.values()):
         raise InputError("there is nothing to sweep over; give at least one name with at least one value")
@@ -140,6 +141,13 @@ def sweep(
             more = _all(workers, [base.with_settings(half) for half in halves], halves, ask, limit, progress)
             outcomes = replace(outcomes, between=(*outcomes.between, *more))
     return outcomes
+
+
+def _is_over(over: object) -> bool:
+    if not isinstance(over, Mapping):
+        return False
+    values = cast("Mapping[object, object]", over).values()
+    return all(isinstance(each, Sequence) and not isinstance(each, str) for each in values)
 
 
 def _all(

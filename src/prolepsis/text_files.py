@@ -6,7 +6,7 @@ import os
 import stat
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from prolepsis.errors import InputError, brief
 
@@ -27,9 +27,9 @@ def path_of(given: Any, what: str, error: type[InputError] = InputError) -> Path
     Raises:
         InputError: If it is none: neither text nor a path, or with a zero byte or more letters than any system takes.
     """
-    name: Any = None
+    name: str | bytes | None = None
     with suppress(TypeError):
-        name = os.fspath(given)
+        name = os.fspath(cast("str", given))
     if not isinstance(name, str):
         raise error(f"{what}: a path is text or a pathlib.Path, not {brief(given.__class__.__name__)}")
     if "\0" in name or len(name) > _LONGEST:
