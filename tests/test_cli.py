@@ -96,7 +96,7 @@ def test_ask_answers_by_chronicles_of_a_file(saved: Path, tmp_path: Path, capfd:
     assert main(["ask", str(saved), "occurs(coming_down(X), _)", "--chronicles", str(rules)]) == 0
     assert "X = egg1\n" in capfd.readouterr().out
     assert main(["ask", str(saved), "occurs(coming_down(X), _)", "--chronicles", str(tmp_path / "no.pl")]) == 2
-    assert "no.pl: No such file" in capfd.readouterr().err
+    assert "no.pl: cannot read the file: No such file" in capfd.readouterr().err
 
 
 def test_timeline_prints_facts_as_json(saved: Path, capfd: pytest.CaptureFixture[str]) -> None:

@@ -46,7 +46,7 @@ def check_replaceable(folder: str | Path, ours: Ours) -> Path:
     Raises:
         InputError: If something else is there, or it could not be written.
     """
-    path = path_of(folder, "folder to save in")
+    path = path_of(folder, "folder", verb="write")
     if not str(folder):
         raise InputError("the folder to write has no name")
     path = Path(os.path.realpath(path))

@@ -57,7 +57,7 @@ def write_sealed(folder: str | Path, write: Callable[[Path], None]) -> None:
     Raises:
         InputError: If ``folder`` holds something that is not ours, or no longer as we wrote it.
     """
-    with aside.written_aside(path_of(folder, "folder to save in"), _unaltered) as new:
+    with aside.written_aside(path_of(folder, "folder", verb="write"), _unaltered) as new:
         new.mkdir()
         write(new)
         _write_manifest(new)

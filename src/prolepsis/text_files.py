@@ -21,8 +21,8 @@ _LONGEST = 4096
 """Characters of a path that a message shows; the system opens no longer one."""
 
 
-def path_of(given: Any, what: str, error: type[InputError] = InputError) -> Path:
-    """Return the path that a caller gave for ``what``.
+def path_of(given: Any, what: str, error: type[InputError] = InputError, *, verb: str = "read") -> Path:
+    """Return the path that a caller gave for ``what``, which is to be read unless a ``verb`` says otherwise.
 
     Raises:
         InputError: If it is none: neither text nor a path, or with a zero byte or more letters than any system takes.
@@ -33,7 +33,8 @@ def path_of(given: Any, what: str, error: type[InputError] = InputError) -> Path
     if not isinstance(name, str):
         raise error(f"{what}: a path is text or a pathlib.Path, not {brief(given.__class__.__name__)}")
     if "\0" in name or len(name) > _LONGEST:
-        raise error(f"{what}: {brief(repr(name))} is no path: it has a zero byte, or more than {_LONGEST} letters")
+        why = "there is a zero byte in its name" if "\0" in name else "File name too long"
+        raise error(f"{brief(name)}: cannot {verb} the {what}: {why}")
     return Path(name)
 
 
