@@ -11,14 +11,16 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.engine import mujoco
-from prolepsis.liquid.solver import COURANT, Effort
-from prolepsis.phenomena import PHENOMENA, Draw, Phenomenon, flowing
+from prolepsis.engine.simulation import simulate
+from prolepsis.engine.world import compile_world
+from prolepsis.matter.kinds import PHENOMENA, Draw, Phenomenon
+from prolepsis.matter.liquids import flowing
+from prolepsis.matter.liquids.solver import COURANT, Effort
 from prolepsis.programs import read_program
 from prolepsis.projection import read_scenario
-from prolepsis.scene import compile_world, compose
-from prolepsis.simulation import simulate
-from prolepsis.state import State
+from prolepsis.scene.compose import compose
+from prolepsis.scene.running import Running
+from prolepsis.system.mujoco import mujoco
 
 ROOT = Path(__file__).parent.parent
 POURING = ROOT / "examples" / "pour_d.toml"
@@ -56,7 +58,7 @@ def pour(liquid: str, count: int, duration: float) -> tuple[float, float, Effort
     made: list[flowing.Flowing] = []
     begun: list[float] = []
 
-    def attach(state: State, draw: Draw) -> Sequence[Phenomenon]:
+    def attach(state: Running, draw: Draw) -> Sequence[Phenomenon]:
         found = flowing.attach(state, draw)
         made.extend(each for each in found if isinstance(each, flowing.Flowing))
         # The settling before the run is not part of it.

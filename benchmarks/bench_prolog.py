@@ -5,8 +5,8 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 
+from prolepsis.log.timeline import Fact, Timeline, make_timeline
 from prolepsis.logic.session import Session
-from prolepsis.timeline import Fact, Timeline, make_timeline
 
 FACT_COUNT = 100_000
 OBJECT_COUNT = 2_000

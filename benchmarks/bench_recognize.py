@@ -7,8 +7,9 @@ import time
 import numpy as np
 
 from prolepsis.fluents import recognize
-from prolepsis.log import Contacts, Log
-from prolepsis.things import FloatArray, Geom, IntArray, Shape, Thing
+from prolepsis.geometry.shape import FloatArray, Geom, IntArray, Shape
+from prolepsis.log.log import Contacts, Log
+from prolepsis.log.things import Thing
 
 DT = 0.001
 BODIES = 40

@@ -13,13 +13,14 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.campaign import sweep
-from prolepsis.engine import mujoco
+from prolepsis.campaigns.campaign import sweep
+from prolepsis.engine.simulation import simulate
+from prolepsis.engine.state import State
+from prolepsis.engine.world import World, compile_world
 from prolepsis.programs import read_program
 from prolepsis.projection import read_scenario
-from prolepsis.scene import World, compile_world, compose
-from prolepsis.simulation import simulate
-from prolepsis.state import State
+from prolepsis.scene.compose import compose
+from prolepsis.system.mujoco import mujoco
 
 SCENARIO = Path(__file__).parent.parent / "examples" / "pr2_grasp.toml"
 PHASES = {"nothing touches the egg but the table": (0.2, 1.4), "a gripper holds the egg": (3.2, 5.2)}

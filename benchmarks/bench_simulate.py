@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 from tests.scenes import EGG_IN_HAND, scene
 
-from prolepsis.engine import mujoco
-from prolepsis.phenomena import Draw
-from prolepsis.phenomena.breaking import attach
+from prolepsis.engine.simulation import simulate
+from prolepsis.engine.state import State
+from prolepsis.engine.world import compile_world
+from prolepsis.matter.kinds import Draw
+from prolepsis.matter.shells.breaking import attach
 from prolepsis.programs import read_program
-from prolepsis.scene import compile_world
-from prolepsis.simulation import simulate
-from prolepsis.state import State
-from prolepsis.terms import parse_term
+from prolepsis.system.mujoco import mujoco
+from prolepsis.terms.terms import parse_term
 
 PLANS = {force: f"sequence([close(hand1, {force}), hold(hand1, 2.0)])" for force in (5.0, 15.0)}
 REPEATS = 3

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from prolepsis.commands.output import table
-from prolepsis.errors import ProlepsisError
+from prolepsis.terms.errors import ProlepsisError
 
 Rows = Iterable[tuple[str, str, str]]
 

@@ -7,13 +7,15 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from prolepsis.engine.simulation import simulate
+from prolepsis.engine.world import compile_world
 from prolepsis.knowledge import KnowledgeBase
-from prolepsis.log import Log
+from prolepsis.log.log import Log
+from prolepsis.matter.liquids.filling import DEFAULT_PARTICLES
 from prolepsis.programs import read_program
-from prolepsis.scene import Scene, compile_world, compose
-from prolepsis.scene.filling import DEFAULT_PARTICLES
-from prolepsis.simulation import simulate
-from prolepsis.terms import parse_term
+from prolepsis.scene.compose import compose
+from prolepsis.scene.scene import Scene
+from prolepsis.terms.terms import parse_term
 
 PREFIX = "@prefix : <https://w3id.org/prolepsis#> .\n"
 

@@ -6,10 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from prolepsis.log import FREE, PARKED, Action, Contacts, Detachments, Log, Particles
-from prolepsis.particle_tables import rounded
-from prolepsis.terms import Term
-from prolepsis.things import FloatArray, Geom, Hole, Shape, Surface, Thing
+from prolepsis.geometry.shape import FloatArray, Geom, Hole, Shape, Surface
+from prolepsis.log.log import FREE, PARKED, Action, Contacts, Detachments, Log, Particles
+from prolepsis.log.particle_tables import rounded
+from prolepsis.log.things import Thing
+from prolepsis.terms.terms import Term
 
 DT = 0.001
 TICKS = 800

@@ -7,8 +7,8 @@ import signal
 import time
 from pathlib import Path
 
-from prolepsis.campaign import Row
-from prolepsis.scenario import Scenario
+from prolepsis.campaigns.campaign import Row
+from prolepsis.scenario.scenario import Scenario
 
 
 def square(number: int) -> int:

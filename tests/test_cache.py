@@ -14,10 +14,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from prolepsis import cache
-from prolepsis.cache import keep, read_kept
-from prolepsis.fields.kept import kept_array
-from prolepsis.things import FloatArray
+from prolepsis.geometry.kept import kept_array
+from prolepsis.geometry.shape import FloatArray
+from prolepsis.system import cache
+from prolepsis.system.cache import keep, read_kept
 
 RIGHT = np.arange(12.0).reshape(3, 4)
 
@@ -148,7 +148,7 @@ def test_a_full_disk_only_costs_time_and_leaves_no_part(root: Path, monkeypatch:
 KERNEL = """
 import sys
 import numpy as np
-from prolepsis.kernels import njit
+from prolepsis.system.kernels import njit
 
 @njit(cache=True)
 def total(numbers):

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from prolepsis.campaign import Outcomes, Row, sweep
+from prolepsis.campaigns.campaign import Outcomes, Row, sweep
+from prolepsis.campaigns.outcome import Grasp
 from prolepsis.cli import main
-from prolepsis.errors import InputError
-from prolepsis.outcome import Grasp
+from prolepsis.terms.errors import InputError
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
 

@@ -15,9 +15,9 @@ import pytest
 
 from prolepsis.cli import main
 from prolepsis.fluents import recognize
-from prolepsis.log_files import write_log_files
-from prolepsis.saved import write_timeline_files
-from prolepsis.sealed import write_sealed
+from prolepsis.log.files import write_log_files
+from prolepsis.log.saved import write_timeline_files
+from prolepsis.log.sealed import write_sealed
 from synthetic import egg_drop_log
 
 EXAMPLES = Path(__file__).parent.parent / "examples"

@@ -18,12 +18,12 @@ import pytest
 from tests.test_session import timeline
 
 from prolepsis.cli import main
-from prolepsis.errors import MissingToolError, Note
+from prolepsis.log.timeline import Timeline
 from prolepsis.logic import process as processes
 from prolepsis.logic.confinement import Walls, offered, system_calls
 from prolepsis.logic.process import PrologProcess
 from prolepsis.logic.session import Session
-from prolepsis.timeline import Timeline
+from prolepsis.terms.errors import MissingToolError, Note
 
 READ = "catch((read_file_to_string('{}', S, []), string_concat(\"read \", S, Reply)), _, Reply = closed)"
 CONNECT = (
@@ -139,7 +139,7 @@ def test_the_command_line_can_require_it(
     monkeypatch.setattr(processes, "offered", Walls)
     monkeypatch.setenv("PROLEPSIS_REQUIRE_CONFINEMENT", "")
     monkeypatch.setattr("prolepsis.logic.session.shared_session", Session)
-    monkeypatch.setattr("prolepsis.saved.read_timeline", egg)
+    monkeypatch.setattr("prolepsis.log.saved.read_timeline", egg)
     assert main(["ask", str(tmp_path), "holds(broken(X), _)", "--require-confinement"]) == 2
     assert "Prolog cannot be confined, as required" in capsys.readouterr().err
     monkeypatch.setenv("PROLEPSIS_REQUIRE_CONFINEMENT", "")
@@ -247,7 +247,7 @@ def test_folders_of_killed_programs_are_cleaned_by_the_next() -> None:
 def test_a_forked_child_asks_for_itself(way: str) -> None:
     code = f"""
 import os, sys, threading, multiprocessing
-from prolepsis.timeline import Timeline
+from prolepsis.log.timeline import Timeline
 from tests.test_session import timeline
 from prolepsis.logic.session import shared_session
 egg = timeline()

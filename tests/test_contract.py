@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
-from prolepsis.errors import GoalError
+from prolepsis.log.timeline import Fact, Timeline, make_timeline
 from prolepsis.logic.session import Session
-from prolepsis.terms import format_value
-from prolepsis.timeline import Fact, Timeline, make_timeline
+from prolepsis.terms.errors import GoalError
+from prolepsis.terms.terms import format_value
 
 CASES: list[dict[str, Any]] = json.loads((Path(__file__).parent / "contract" / "timelines.json").read_text())
 GOALS = [(case, goal) for case in CASES for goal in case["goals"]]

@@ -9,11 +9,11 @@ import pytest
 from tests.hostile_goals import EFFECTS, by_hand, crossed
 from tests.test_session import timeline
 
-from prolepsis.errors import GoalError, InputError, Note
 from prolepsis.logic.confinement import Walls
 from prolepsis.logic.process import ProcessLost, PrologProcess
 from prolepsis.logic.session import Session
-from prolepsis.terms import format_atom, format_value
+from prolepsis.terms.errors import GoalError, InputError, Note
+from prolepsis.terms.terms import format_atom, format_value
 
 SECRET = "what nobody may read"
 TRIPPED = "flag(tripped, Count, Count), format(string(Reply), '~w', [Count])"

@@ -11,15 +11,16 @@ from typing import Any
 import pytest
 from tests.scenes import EGG_IN_HAND, run
 
+from prolepsis.engine.channels import MONITORS
+from prolepsis.engine.simulation import simulate
+from prolepsis.engine.world import compile_world
 from prolepsis.fluents import recognize
 from prolepsis.knowledge import KnowledgeBase
-from prolepsis.monitors.channels import MONITORS
-from prolepsis.phenomena import PHENOMENA
+from prolepsis.matter.kinds import PHENOMENA
 from prolepsis.programs import ACTIONS, read_program
 from prolepsis.projection import project
-from prolepsis.scene import compile_world, compose
-from prolepsis.simulation import simulate
-from prolepsis.terms import parse_term
+from prolepsis.scene.compose import compose
+from prolepsis.terms.terms import parse_term
 
 PAGE = (Path(__file__).parents[1] / "docs" / "how-to.md").read_text(encoding="utf-8")
 

@@ -18,12 +18,14 @@ import numpy as np
 import pytest
 from tests.synthetic import egg_drop_log
 
-from prolepsis import aside, sealed, simulation
 from prolepsis.cli import main
-from prolepsis.errors import InputError, Note
-from prolepsis.log_files import write_log
+from prolepsis.engine import simulation
+from prolepsis.log import sealed
+from prolepsis.log.files import write_log
+from prolepsis.log.sealed import MANIFEST, read_sealed, write_sealed
 from prolepsis.projection import Projection, project
-from prolepsis.sealed import MANIFEST, read_sealed, write_sealed
+from prolepsis.system import aside
+from prolepsis.terms.errors import InputError, Note
 
 
 def write(folder: Path, word: str) -> None:
@@ -138,8 +140,8 @@ def test_a_folder_where_nothing_can_be_written_is_refused_before_anything_is_sim
 KILLED = textwrap.dedent(
     """
     import ctypes, os, pathlib, shutil, signal, sys, tempfile
-    from prolepsis import aside
-    from prolepsis.sealed import write_sealed
+    from prolepsis.system import aside
+    from prolepsis.log.sealed import write_sealed
 
     folder, left, exchanges = sys.argv[1], int(sys.argv[2]), sys.argv[3] == "True"
 
@@ -197,7 +199,7 @@ def test_a_disk_that_fills_while_saving_leaves_the_old_one(tmp_path: Path) -> No
     write_log(egg_drop_log(), tmp_path / "run")
     before = {file.name: file.read_bytes() for file in (tmp_path / "run").iterdir()}
     code = (
-        "import resource, sys; from prolepsis.log_files import write_log; from tests.synthetic import wet_log\n"
+        "import resource, sys; from prolepsis.log.files import write_log; from tests.synthetic import wet_log\n"
         "resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[2]), -1))\n"
         "try:\n    write_log(wet_log(), sys.argv[1])\nexcept OSError as error:\n    print('full')"
     )

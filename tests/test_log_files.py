@@ -12,11 +12,11 @@ import numpy as np
 import pyarrow.parquet  # pyright: ignore[reportMissingTypeStubs]
 import pytest
 
-from prolepsis.errors import InputError, LogError
-from prolepsis.log import FREE, Detachments, Log
-from prolepsis.log_files import read_log, write_log
-from prolepsis.particle_tables import STEP, rounded
-from prolepsis.sealed import MANIFEST, write_sealed
+from prolepsis.log.files import read_log, write_log
+from prolepsis.log.log import FREE, Detachments, Log
+from prolepsis.log.particle_tables import STEP, rounded
+from prolepsis.log.sealed import MANIFEST, write_sealed
+from prolepsis.terms.errors import InputError, LogError
 from synthetic import egg_drop_log, particles, wet_log
 
 FILES = (
@@ -101,8 +101,8 @@ def test_rounding_departs_by_half_a_step_and_takes_two_bytes_a_number(tmp_path: 
     ],
 )
 def test_particles_that_do_not_fit_the_log_are_refused(tmp_path: Path, name: str, column: str, value: int) -> None:
-    from prolepsis.log_files import read_log_files, write_log_files
-    from prolepsis.log_tables import read_table, write_table
+    from prolepsis.log.files import read_log_files, write_log_files
+    from prolepsis.log.tables import read_table, write_table
 
     write_log_files(wet_log(), tmp_path)
     columns = {key: values.copy() for key, values in read_table(tmp_path / name).items()}
@@ -113,8 +113,8 @@ def test_particles_that_do_not_fit_the_log_are_refused(tmp_path: Path, name: str
 
 
 def test_a_lost_particle_is_noticed(tmp_path: Path) -> None:
-    from prolepsis.log_files import read_log_files, write_log_files
-    from prolepsis.log_tables import read_table, write_table
+    from prolepsis.log.files import read_log_files, write_log_files
+    from prolepsis.log.tables import read_table, write_table
 
     write_log_files(wet_log(), tmp_path)
     columns = read_table(tmp_path / "particles.parquet")
@@ -199,7 +199,7 @@ def test_a_missing_file_is_named(saved: Path, tmp_path: Path, name: str) -> None
 
 
 def test_a_page_checksum_guards_a_table_read_by_itself(saved: Path, tmp_path: Path) -> None:
-    from prolepsis.log_tables import read_table
+    from prolepsis.log.tables import read_table
 
     content = bytearray((saved / "contacts.parquet").read_bytes())
     column = column_of(saved / "contacts.parquet", 5)

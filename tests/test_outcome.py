@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from prolepsis.campaign import Outcomes, Row
-from prolepsis.errors import InputError
-from prolepsis.log import Log
-from prolepsis.outcome import Grasp, GraspOutcome, judge_grasp
-from prolepsis.things import Thing
-from prolepsis.timeline import Fact, Timeline, make_timeline
+from prolepsis.campaigns.campaign import Outcomes, Row
+from prolepsis.campaigns.outcome import Grasp, GraspOutcome, judge_grasp
+from prolepsis.log.log import Log
+from prolepsis.log.things import Thing
+from prolepsis.log.timeline import Fact, Timeline, make_timeline
+from prolepsis.terms.errors import InputError
 from synthetic import DT, LAND, TICKS, egg_drop_log
 
 

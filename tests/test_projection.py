@@ -12,11 +12,11 @@ from pathlib import Path
 import pytest
 
 import prolepsis
-from prolepsis.engine import mujoco
-from prolepsis.errors import InputError, LogError, UnknownNameError
-from prolepsis.log_files import read_log, write_log
+from prolepsis.log.files import read_log, write_log
 from prolepsis.projection import Projection, project
-from prolepsis.terms import format_value
+from prolepsis.system.mujoco import mujoco
+from prolepsis.terms.errors import InputError, LogError, UnknownNameError
+from prolepsis.terms.terms import format_value
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
 SHORT = """\

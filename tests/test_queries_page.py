@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from prolepsis.domain import Domain
+from prolepsis.log.domain import Domain
+from prolepsis.log.timeline import Fact, Timeline, make_timeline
 from prolepsis.logic.process import PROLOG_FILES
 from prolepsis.logic.session import Session
-from prolepsis.terms import format_value
-from prolepsis.timeline import Fact, Timeline, make_timeline
+from prolepsis.terms.terms import format_value
 
 INTERNAL = {"matching", "args_of", "interval", "relation_names"}
 """Predicates that the modules share, and that a goal may not call."""

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from prolepsis.errors import GoalLimitError, InputError
+from prolepsis.log.timeline import Fact, Timeline, make_timeline
 from prolepsis.logic import session as sessions
 from prolepsis.logic.session import Session
-from prolepsis.terms import Term
-from prolepsis.timeline import Fact, Timeline, make_timeline
+from prolepsis.terms.errors import GoalLimitError, InputError
+from prolepsis.terms.terms import Term
 
 HEAD = "chronicle(shaking(X), T) :- "
 

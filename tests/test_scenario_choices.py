@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from prolepsis.cli import main
-from prolepsis.errors import UnknownNameError
 from prolepsis.projection import Projection, project
-from prolepsis.scenario import Scenario
+from prolepsis.scenario.scenario import Scenario
+from prolepsis.terms.errors import UnknownNameError
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
 SHORT = 'situation = "dropped_egg.ttl"\nplan = "wait(0.02)"\nduration = 0.03\nseed = 3\n'

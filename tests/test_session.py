@@ -10,11 +10,11 @@ from typing import Any
 
 import pytest
 
-from prolepsis.domain import Domain
-from prolepsis.errors import GoalError, GoalLimitError, MissingToolError, Note
+from prolepsis.log.domain import Domain
+from prolepsis.log.timeline import Fact, Timeline, make_timeline
 from prolepsis.logic.session import Session
-from prolepsis.terms import Term, Variable, format_value
-from prolepsis.timeline import Fact, Timeline, make_timeline
+from prolepsis.terms.errors import GoalError, GoalLimitError, MissingToolError, Note
+from prolepsis.terms.terms import Term, Variable, format_value
 
 
 def timeline(name: str = "egg1") -> Timeline:

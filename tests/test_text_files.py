@@ -13,9 +13,8 @@ import pyarrow as arrow  # pyright: ignore[reportMissingTypeStubs]
 import pyarrow.parquet as parquet  # pyright: ignore[reportMissingTypeStubs]
 import pytest
 
-from prolepsis.errors import InputError
-from prolepsis.fields.meshes import MOST_BYTES as LONGEST_MESH
-from prolepsis.fields.meshes import read_surface
+from prolepsis.geometry.meshes import MOST_BYTES as LONGEST_MESH
+from prolepsis.geometry.meshes import read_surface
 from prolepsis.knowledge.turtle import LONGEST_FILE as LONGEST_TURTLE
 from prolepsis.knowledge.turtle import read_turtle
 from prolepsis.logic.rules import LONGEST_RULES, read_rules
@@ -23,8 +22,9 @@ from prolepsis.programs.recording import MOST_BYTES as LONGEST_RECORDING
 from prolepsis.programs.recording import read_recording
 from prolepsis.robots.model_text import MOST_BYTES as LONGEST_ROBOT
 from prolepsis.robots.model_text import read_model_tree
-from prolepsis.scenario import Scenario
-from prolepsis.scenario_file import LONGEST_FILE as LONGEST_SCENARIO
+from prolepsis.scenario.file import LONGEST_FILE as LONGEST_SCENARIO
+from prolepsis.scenario.scenario import Scenario
+from prolepsis.terms.errors import InputError
 
 Reader = Callable[[Path], object]
 

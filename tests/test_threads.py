@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from prolepsis.threads import one_thread
+from prolepsis.system.threads import one_thread
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
 PROJECT = """

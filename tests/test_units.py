@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from prolepsis.errors import InputError
-from prolepsis.units import qudt_symbol, read_quantity, si_symbol, to_si, unit_of
+from prolepsis.terms.errors import InputError
+from prolepsis.terms.units import qudt_symbol, read_quantity, si_symbol, to_si, unit_of
 
 SYMBOLS = ("g", "mm", "min", "deg", "degC", "kN", "N/mm", "g/cm3", "mPa s", "mN/m", "km/s", "m/s^2", "l", "%", "MPa")
 

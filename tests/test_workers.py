@@ -14,9 +14,9 @@ from pathlib import Path
 import pytest
 from tests import tasks
 
-from prolepsis.campaign import Outcomes, Row, sweep
+from prolepsis.campaigns.campaign import Outcomes, Row, sweep
 from prolepsis.commands import sweep as command
-from prolepsis.workers import Lost, carry_out
+from prolepsis.system.workers import Lost, carry_out
 
 ROOT = Path(__file__).parent.parent
 STEP = 0.05
@@ -72,7 +72,7 @@ def test_a_task_that_fails_says_where() -> None:
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
 def test_however_a_process_ends_its_workers_end_too(tmp_path: Path, how: signal.Signals) -> None:
     code = (
-        "import signal, sys; from prolepsis.workers import carry_out; from tests.tasks import tell_and_sleep\n"
+        "import signal, sys; from prolepsis.system.workers import carry_out; from tests.tasks import tell_and_sleep\n"
         # What runs in the background of a shell begins deaf to Ctrl-C.
         "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         "list(carry_out(tell_and_sleep, [(name,) for name in sys.argv[1:]], 2))"
@@ -111,7 +111,7 @@ def test_a_sweep_needs_no_guard_in_the_users_script(scenario: Path) -> None:
 
 
 def test_a_lost_row_is_a_row_and_the_others_come_out(scenario: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("prolepsis.campaign._run", tasks.row_or_end)
+    monkeypatch.setattr("prolepsis.campaigns.campaign._run", tasks.row_or_end)
     outcomes = sweep(scenario, {"Time": [0.01, 0.02, 0.03]})
     assert [row.error is None for row in outcomes.rows] == [True, False, True]
     assert "was killed by SIGKILL, also when tried once more alone" in str(outcomes.rows[1].error)

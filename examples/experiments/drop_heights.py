@@ -10,11 +10,12 @@ import math
 import tempfile
 from pathlib import Path
 
+from prolepsis.engine.simulation import simulate
+from prolepsis.engine.world import compile_world
 from prolepsis.knowledge import KnowledgeBase
 from prolepsis.programs import read_program
-from prolepsis.scene import compile_world, compose
-from prolepsis.simulation import simulate
-from prolepsis.terms import Term
+from prolepsis.scene.compose import compose
+from prolepsis.terms.terms import Term
 
 SITUATION = """@prefix : <https://w3id.org/prolepsis#> .
 :floor a :Floor . :egg1 a :Egg ; :z {z!r} ; :pitch {pitch} .

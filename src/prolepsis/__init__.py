@@ -24,39 +24,41 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
-    from prolepsis.campaign import Outcomes, sweep
-    from prolepsis.domain import Domain
-    from prolepsis.errors import (
+    from prolepsis.campaigns.campaign import Outcomes, sweep
+    from prolepsis.campaigns.outcome import Grasp, judge_grasp
+    from prolepsis.fluents import recognize
+    from prolepsis.geometry.shape import Geom, Shape
+    from prolepsis.knowledge import KnowledgeBase
+    from prolepsis.log.domain import Domain
+    from prolepsis.log.files import read_log, write_log
+    from prolepsis.log.log import Log
+    from prolepsis.log.things import Thing
+    from prolepsis.log.timeline import Fact, Timeline
+    from prolepsis.projection import Projection, project
+    from prolepsis.scenario.scenario import Parameter, Scenario
+    from prolepsis.terms.errors import (
         InputError,
         InvalidSimulationError,
         MissingToolError,
         ProlepsisError,
     )
-    from prolepsis.fluents import recognize
-    from prolepsis.knowledge import KnowledgeBase
-    from prolepsis.log import Log
-    from prolepsis.log_files import read_log, write_log
-    from prolepsis.outcome import Grasp, judge_grasp
-    from prolepsis.projection import Projection, project
-    from prolepsis.scenario import Parameter, Scenario
-    from prolepsis.terms import Term, Variable, format_value, parse_term
-    from prolepsis.things import Geom, Shape, Thing
-    from prolepsis.timeline import Fact, Timeline
+    from prolepsis.terms.terms import Term, Variable, format_value, parse_term
 
 _HOMES = {
-    "prolepsis.campaign": ("Outcomes", "sweep"),
-    "prolepsis.domain": ("Domain",),
-    "prolepsis.errors": ("InputError", "InvalidSimulationError", "MissingToolError", "ProlepsisError"),
+    "prolepsis.campaigns.campaign": ("Outcomes", "sweep"),
+    "prolepsis.log.domain": ("Domain",),
+    "prolepsis.terms.errors": ("InputError", "InvalidSimulationError", "MissingToolError", "ProlepsisError"),
     "prolepsis.fluents": ("recognize",),
     "prolepsis.knowledge": ("KnowledgeBase",),
-    "prolepsis.log": ("Log",),
-    "prolepsis.log_files": ("read_log", "write_log"),
-    "prolepsis.outcome": ("Grasp", "judge_grasp"),
+    "prolepsis.log.log": ("Log",),
+    "prolepsis.log.files": ("read_log", "write_log"),
+    "prolepsis.campaigns.outcome": ("Grasp", "judge_grasp"),
     "prolepsis.projection": ("Projection", "project"),
-    "prolepsis.scenario": ("Parameter", "Scenario"),
-    "prolepsis.terms": ("Term", "Variable", "format_value", "parse_term"),
-    "prolepsis.things": ("Geom", "Shape", "Thing"),
-    "prolepsis.timeline": ("Fact", "Timeline"),
+    "prolepsis.scenario.scenario": ("Parameter", "Scenario"),
+    "prolepsis.terms.terms": ("Term", "Variable", "format_value", "parse_term"),
+    "prolepsis.geometry.shape": ("Geom", "Shape"),
+    "prolepsis.log.things": ("Thing",),
+    "prolepsis.log.timeline": ("Fact", "Timeline"),
 }
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
 

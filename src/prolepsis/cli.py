@@ -100,7 +100,7 @@ def _memory() -> float:
 
 def _refuse(error: BaseException, given: Sequence[str]) -> int:
     """Say what is wrong, and return the exit status that says whose matter it is."""
-    from prolepsis.errors import InputError, InvalidSimulationError, MissingToolError
+    from prolepsis.terms.errors import InputError, InvalidSimulationError, MissingToolError
 
     match error:
         case InvalidSimulationError():
@@ -124,14 +124,14 @@ def _fail(error: BaseException, given: Sequence[str]) -> int:
 
         traceback.print_exception(error)
         return UNEXPECTED
-    from prolepsis.errors import error_line
+    from prolepsis.terms.errors import error_line
 
     words = f"{type(error).__name__}: {error_line(error, 160)}".removesuffix(": ")
     return _tell(f"unexpected failure: {words}; the same command with {TRACEBACK} shows where", UNEXPECTED)
 
 
 def _tell(error: object, status: int) -> int:
-    from prolepsis.errors import error_line
+    from prolepsis.terms.errors import error_line
 
     line = f"prolepsis: {error}"
     if encoding := getattr(sys.stderr, "encoding", None):

@@ -8,17 +8,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, cast
 
-from prolepsis.errors import InputError, LogError, ScenarioError, brief
-from prolepsis.kernels import are_kept
-from prolepsis.log import Log
-from prolepsis.log_files import read_log_files, write_log_files
-from prolepsis.log_tables import refuse_long_run
-from prolepsis.own_robot import OwnRobot
-from prolepsis.saved import read_timeline_files, write_timeline_files
-from prolepsis.scenario import Parameter, Scenario
-from prolepsis.scenario_file import DEFAULT_PARTICLES, read_robot, write_robot
-from prolepsis.scene.scene import Scene
-from prolepsis.sealed import (
+from prolepsis.log.files import read_log_files, write_log_files
+from prolepsis.log.log import Log
+from prolepsis.log.saved import read_timeline_files, write_timeline_files
+from prolepsis.log.sealed import (
     MANIFEST,
     check_replaceable,
     is_plain_name,
@@ -30,9 +23,16 @@ from prolepsis.sealed import (
     write_sealed_beside,
     write_text,
 )
-from prolepsis.terms import Value, format_value, parse_term
-from prolepsis.threads import one_thread
-from prolepsis.timeline import Timeline
+from prolepsis.log.tables import refuse_long_run
+from prolepsis.log.timeline import Timeline
+from prolepsis.scenario.file import DEFAULT_PARTICLES, read_robot, write_robot
+from prolepsis.scenario.own_robot import OwnRobot
+from prolepsis.scenario.scenario import Parameter, Scenario
+from prolepsis.scene.scene import Scene
+from prolepsis.system.kernels import are_kept
+from prolepsis.system.threads import one_thread
+from prolepsis.terms.errors import InputError, LogError, ScenarioError, brief
+from prolepsis.terms.terms import Value, format_value, parse_term
 
 Progress = Callable[[str], None]
 """Called from time to time with a few words on what is being done."""
@@ -146,12 +146,13 @@ def project_into(
     tell("reading the knowledge")
     knowledge = read.knowledge_base()
     # What physics imports takes a moment, and a wrong scenario is refused before it.
+    from prolepsis.engine.simulation import TICK, simulate
+    from prolepsis.engine.world import compile_world
     from prolepsis.fluents import recognize
-    from prolepsis.monitors.frames import PERIOD
     from prolepsis.programs import check_units, read_program
     from prolepsis.robots.loading import load_robot
-    from prolepsis.scene import compile_world, compose
-    from prolepsis.simulation import TICK, simulate
+    from prolepsis.scene.compose import compose
+    from prolepsis.scene.particles import PERIOD
 
     if any(knowledge.is_a(name, "Liquid") for name in knowledge.objects) and not are_kept():
         tell("compiling the kernels of liquids, once, in about a minute")

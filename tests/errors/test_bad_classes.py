@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from prolepsis.errors import InputError, KnowledgeError
 from prolepsis.knowledge import KnowledgeBase
+from prolepsis.terms.errors import InputError, KnowledgeError
 
 PREFIX = """\
 @prefix : <https://w3id.org/prolepsis#> . @prefix owl: <http://www.w3.org/2002/07/owl#> .

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from prolepsis.errors import InconsistentError, InputError
 from prolepsis.knowledge import KnowledgeBase
+from prolepsis.terms.errors import InconsistentError, InputError
 
 PREFIX = "@prefix : <https://w3id.org/prolepsis#> .\n"
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from prolepsis.errors import InputError
 from prolepsis.projection import project
+from prolepsis.terms.errors import InputError
 
 ROOT = Path(__file__).parents[2]
 EXAMPLE = (ROOT / "examples" / "own_arm.toml").read_text(encoding="utf-8")

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from prolepsis.errors import InputError, UnknownNameError
 from prolepsis.projection import project
-from prolepsis.scenario import Scenario
-from prolepsis.terms import Term
+from prolepsis.scenario.scenario import Scenario
+from prolepsis.terms.errors import InputError, UnknownNameError
+from prolepsis.terms.terms import Term
 
 GOOD = 'situation = "s.ttl"\nplan = "close(hand1, Force)"\n[parameters]\nForce = { value = 20, unit = "N" }\n'
 

@@ -85,7 +85,7 @@ def test_a_wrong_way_to_draw_is_told(saved: Path) -> None:
 
 def test_an_interruption_while_modules_load_is_told(saved: Path) -> None:
     code = f"import os, sys; sys.argv[0] = 'prolepsis'; {INTERRUPT}; from prolepsis.cli import main; sys.exit(main())"
-    for module in ("argparse", "pydantic", "mujoco", "rdflib", "numpy.linalg", "prolepsis.simulation"):
+    for module in ("argparse", "pydantic", "mujoco", "rdflib", "numpy.linalg", "prolepsis.engine.simulation"):
         command = [sys.executable, "-c", code, "project", "s.toml"]
         done = subprocess.run(
             command, capture_output=True, text=True, cwd=saved, check=False, env={**os.environ, "INTERRUPTED": module}
@@ -159,6 +159,6 @@ def test_too_little_memory_is_told_in_one_line(saved: Path, monkeypatch: pytest.
     def run_short(*arguments: object, **named: object) -> None:
         raise MemoryError
 
-    monkeypatch.setattr("prolepsis.saved.read_timeline", run_short)
+    monkeypatch.setattr("prolepsis.log.saved.read_timeline", run_short)
     monkeypatch.setattr("prolepsis.cli._memory", lambda: 1000.0)
     assert main(["timeline", str(saved / "run")]) == 2

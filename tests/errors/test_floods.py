@@ -9,15 +9,16 @@ import numpy as np
 import pytest
 from tests.scenes import EGG_IN_HAND, run
 
-from prolepsis.campaign import sweep
+from prolepsis.campaigns.campaign import sweep
 from prolepsis.cli import main
-from prolepsis.errors import InputError
-from prolepsis.fields.meshes import read_surface
-from prolepsis.log_files import write_log
+from prolepsis.engine.world import compile_world
+from prolepsis.geometry.meshes import read_surface
+from prolepsis.geometry.shape import Geom, Shape
+from prolepsis.log.files import write_log
+from prolepsis.log.things import Thing
 from prolepsis.report.render import render_frames, render_strip, render_video
 from prolepsis.scene.scene import Scene
-from prolepsis.scene.world import compile_world
-from prolepsis.things import Geom, Shape, Thing
+from prolepsis.terms.errors import InputError
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 LOG = run(EGG_IN_HAND, "wait(0.01)")

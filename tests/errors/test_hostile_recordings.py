@@ -12,8 +12,8 @@ import pyarrow  # pyright: ignore[reportMissingTypeStubs]
 import pyarrow.parquet  # pyright: ignore[reportMissingTypeStubs]
 import pytest
 
-from prolepsis.errors import InputError
 from prolepsis.programs.recording import read_recording
+from prolepsis.terms.errors import InputError
 
 arrow: Any = pyarrow
 parquet: Any = pyarrow.parquet

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 from tests.errors.test_bad_robot import EXAMPLE, MODEL, refused
 
-from prolepsis.errors import ScenarioError
 from prolepsis.robots.model_file import read_model_file
 from prolepsis.robots.trial import try_robot
+from prolepsis.terms.errors import ScenarioError
 
 URDF = '<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="revolute"><parent link="a"/>'
 SPHERE = '<geom size="0.01"/>'

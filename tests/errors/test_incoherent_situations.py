@@ -5,11 +5,12 @@ from __future__ import annotations
 import pytest
 from tests.scenes import scene
 
-from prolepsis.errors import InputError, KnowledgeError, PlanError
+from prolepsis.engine.world import compile_world
 from prolepsis.programs import read_program
 from prolepsis.programs.action import ACTIONS, NEEDS
-from prolepsis.scene import Scene, compile_world
-from prolepsis.terms import parse_term
+from prolepsis.scene.scene import Scene
+from prolepsis.terms.errors import InputError, KnowledgeError, PlanError
+from prolepsis.terms.terms import parse_term
 
 BASE = ":floor a :Floor . :table1 a :Table . :hand1 a :Gripper ; :z 1.2 ."
 BLOCK = ":block1 a :Block ; :on :table1 ; :length 0.05 ; :width 0.05 ; :height 0.05 ."

@@ -6,10 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from prolepsis import log_tables, simulation
 from prolepsis.cli import main
-from prolepsis.errors import InputError
+from prolepsis.engine import simulation
+from prolepsis.log import tables as log_tables
 from prolepsis.projection import project
+from prolepsis.terms.errors import InputError
 
 SITUATION = """\
 @prefix : <https://w3id.org/prolepsis#> .

@@ -11,8 +11,8 @@ import pytest
 
 import prolepsis
 from prolepsis import Fact, KnowledgeBase, Term, format_value, parse_term, project, read_log, recognize, sweep
-from prolepsis.errors import InputError, ProlepsisError
-from prolepsis.timeline import Timeline, make_timeline
+from prolepsis.log.timeline import Timeline, make_timeline
+from prolepsis.terms.errors import InputError, ProlepsisError
 
 DROP = Path(__file__).parent.parent.parent / "examples" / "dropped_egg.toml"
 HUGE = 10**5000

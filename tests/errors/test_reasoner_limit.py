@@ -7,12 +7,12 @@ from pathlib import Path
 import pytest
 
 from prolepsis.cli import main
-from prolepsis.errors import InconsistentError
 from prolepsis.knowledge import KnowledgeBase
 from prolepsis.knowledge.axioms import Axiom
 from prolepsis.knowledge.reasoning import explain
 from prolepsis.projection import Projection
-from prolepsis.scenario import Scenario
+from prolepsis.scenario.scenario import Scenario
+from prolepsis.terms.errors import InconsistentError
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

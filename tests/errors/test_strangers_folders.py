@@ -16,18 +16,21 @@ import pyarrow.parquet as parquet  # pyright: ignore[reportMissingTypeStubs]
 import pytest
 from tests.synthetic import egg_drop_log, wet_log
 
-from prolepsis import log_checks, log_files, log_tables, sealed
-from prolepsis import saved as saved_timeline
 from prolepsis.cli import main
-from prolepsis.domain import Domain
-from prolepsis.errors import InputError, LogError
-from prolepsis.log import Log
-from prolepsis.log_files import read_log, write_log, write_log_files
-from prolepsis.log_tables import read_table, write_table
+from prolepsis.log import checks as log_checks
+from prolepsis.log import files as log_files
+from prolepsis.log import saved as saved_timeline
+from prolepsis.log import sealed
+from prolepsis.log import tables as log_tables
+from prolepsis.log.domain import Domain
+from prolepsis.log.files import read_log, write_log, write_log_files
+from prolepsis.log.log import Log
+from prolepsis.log.saved import read_timeline, write_timeline_files
+from prolepsis.log.sealed import MANIFEST, read_sealed, to_json, write_sealed
+from prolepsis.log.tables import read_table, write_table
+from prolepsis.log.timeline import Fact, make_timeline
 from prolepsis.projection import Projection
-from prolepsis.saved import read_timeline, write_timeline_files
-from prolepsis.sealed import MANIFEST, read_sealed, to_json, write_sealed
-from prolepsis.timeline import Fact, make_timeline
+from prolepsis.terms.errors import InputError, LogError
 
 Change = Callable[[Path], None]
 

@@ -8,7 +8,7 @@ import pytest
 
 from prolepsis.cli import main
 from prolepsis.commands import catalogue
-from prolepsis.errors import LONGEST_LINE
+from prolepsis.terms.errors import LONGEST_LINE
 
 COMMANDS = ["project", "ask", "timeline", "sweep", "render", "list", "describe", "doctor"]
 

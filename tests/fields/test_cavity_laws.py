@@ -11,9 +11,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from prolepsis.fields.cavity import cavity_of, spill_levels
-from prolepsis.fields.solids import Solid, solid_of
-from prolepsis.things import BoolArray, FloatArray, Geom
+from prolepsis.geometry.cavity import cavity_of, spill_levels
+from prolepsis.geometry.shape import BoolArray, FloatArray, Geom
+from prolepsis.geometry.solids import Solid, solid_of
 
 NEIGHBOURS = [step for step in itertools.product((-1, 0, 1), repeat=3) if sum(map(abs, step)) == 1]
 

@@ -10,9 +10,10 @@ import numpy as np
 from tests.fluents.logs import Draft
 
 from prolepsis.fluents import recognize
-from prolepsis.log import FREE, Action, Log, Particles
-from prolepsis.things import IDENTITY, FloatArray, Geom, Hole, Quaternion, Shape, Surface, Thing, Triple
-from prolepsis.timeline import Timeline
+from prolepsis.geometry.shape import IDENTITY, FloatArray, Geom, Hole, Quaternion, Shape, Surface, Triple
+from prolepsis.log.log import FREE, Action, Log, Particles
+from prolepsis.log.things import Thing
+from prolepsis.log.timeline import Timeline
 
 DT = 0.01
 EVERY = 2

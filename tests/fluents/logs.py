@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from prolepsis.log import Action, Bonds, Contacts, Detachments, Log
-from prolepsis.things import FloatArray, Geom, Shape, Thing, Triple
+from prolepsis.geometry.shape import FloatArray, Geom, Shape, Triple
+from prolepsis.log.log import Action, Bonds, Contacts, Detachments, Log
+from prolepsis.log.things import Thing
 
 DT = 0.001
 PLATES = 5

@@ -7,8 +7,8 @@ from tests.fluents.logs import PLATES, Draft, egg, floor
 from tests.fluents.worlds import at_end, ever, of_type, times
 
 from prolepsis.fluents import recognize
-from prolepsis.log import Detachments
-from prolepsis.timeline import Timeline
+from prolepsis.log.log import Detachments
+from prolepsis.log.timeline import Timeline
 
 APART = 300
 """Tick at which the shell falls apart."""

@@ -25,7 +25,7 @@ from tests.fluents.worlds import (
     world,
 )
 
-from prolepsis.timeline import Fact, Timeline
+from prolepsis.log.timeline import Fact, Timeline
 
 CUP = free("cup", "0 0 .0001", cup_geoms(wall=0.008))
 BRICK = box("brick", "0 0 .03", ".02 .03 .03", 0.2)

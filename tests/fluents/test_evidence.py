@@ -11,10 +11,10 @@ from tests.fluents.worlds import FLOOR, box, of_type, watch, world
 from tests.synthetic import egg_drop_log
 
 import prolepsis.fluents
-from prolepsis.errors import InvalidSimulationError
 from prolepsis.fluents.evidence import RANGES
 from prolepsis.fluents.observation import observe
-from prolepsis.timeline import Fact
+from prolepsis.log.timeline import Fact
+from prolepsis.terms.errors import InvalidSimulationError
 
 GROUNDINGS = Path(prolepsis.fluents.__file__).parent
 PAGE = Path(__file__).parents[2] / "docs" / "grounding.md"

@@ -32,11 +32,12 @@ from tests.fluents.worlds import times
 
 from prolepsis.fluents import recognize
 from prolepsis.fluents.containment import NOTICEABLE_FRACTION
-from prolepsis.log import PARKED, Action, Log
+from prolepsis.geometry.shape import FloatArray, Geom, Hole, Shape
+from prolepsis.log.log import PARKED, Action, Log
+from prolepsis.log.things import Thing
+from prolepsis.log.timeline import Timeline
 from prolepsis.logic.process import PROLOG_FILES
-from prolepsis.terms import Term
-from prolepsis.things import FloatArray, Geom, Hole, Shape, Thing
-from prolepsis.timeline import Timeline
+from prolepsis.terms.terms import Term
 
 TICKS = 200
 FRAMES = TICKS // EVERY

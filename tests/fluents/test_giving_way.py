@@ -9,9 +9,10 @@ import pytest
 from tests.synthetic import DT, TICKS, egg_drop_log
 
 from prolepsis.fluents import recognize
-from prolepsis.log import Log
-from prolepsis.things import FloatArray, Thing
-from prolepsis.timeline import Timeline
+from prolepsis.geometry.shape import FloatArray
+from prolepsis.log.log import Log
+from prolepsis.log.things import Thing
+from prolepsis.log.timeline import Timeline
 
 
 def bowl_log(depth: FloatArray, quantity: str) -> Log:

@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 from tests.fluents.worlds import FLOOR, STEP, box, roll, times, world
 
-from prolepsis.errors import InputError
 from prolepsis.fluents import EVENTS, FLUENTS, recognize
 from prolepsis.fluents.registry import GROUNDINGS, fluent
-from prolepsis.log import Log
+from prolepsis.log.log import Log
+from prolepsis.terms.errors import InputError
 
 PAGE = Path(__file__).parents[2] / "docs" / "grounding.md"
 

@@ -9,9 +9,10 @@ from tests.fluents.worlds import ever, of_type, times
 
 from prolepsis.fluents import EVENTS, FLUENTS, recognize
 from prolepsis.fluents.actions import ing
-from prolepsis.log import Action, Bonds
-from prolepsis.terms import Term
-from prolepsis.things import Geom, Shape, Thing
+from prolepsis.geometry.shape import Geom, Shape
+from prolepsis.log.log import Action, Bonds
+from prolepsis.log.things import Thing
+from prolepsis.terms.terms import Term
 
 
 def hand(name: str = "rightGripper") -> list[Thing]:

@@ -8,11 +8,11 @@ import itertools
 import numpy as np
 import pytest
 
-from prolepsis.fields.signed_distance import Field, solids_as_arrays, union_of
 from prolepsis.fluents.kernels.distances import node_distances
 from prolepsis.fluents.kernels.pools import standing
 from prolepsis.fluents.kernels.spreading import spread
-from prolepsis.things import BoolArray, FloatArray, Geom, Hole, Shape
+from prolepsis.geometry.shape import BoolArray, FloatArray, Geom, Hole, Shape
+from prolepsis.geometry.signed_distance import Field, solids_as_arrays, union_of
 
 STEPS = [step for step in itertools.product((-1, 0, 1), repeat=3) if sum(map(abs, step)) == 1]
 UPS = [(0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (0.6, 0.0, -0.8), (-0.48, 0.6, 0.64)]

@@ -9,13 +9,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.fluents.worlds import FLOOR, STEP, ball, box, cup_geoms, free, roll, world
 
-from prolepsis.fields.hull import hull_planes
 from prolepsis.fluents import recognize
 from prolepsis.fluents.intervals import close_gaps, debounce, drop_short, hysteresis, mask_of, runs, ticks_of, union
-from prolepsis.fluents.rigid import multiply, rotate
-from prolepsis.log import Contacts, Log
-from prolepsis.things import BoolArray, FloatArray
-from prolepsis.timeline import Timeline
+from prolepsis.geometry.hull import hull_planes
+from prolepsis.geometry.rigid import multiply, rotate
+from prolepsis.geometry.shape import BoolArray, FloatArray
+from prolepsis.log.log import Contacts, Log
+from prolepsis.log.timeline import Timeline
 
 masks = st.lists(st.booleans(), min_size=1, max_size=60).map(lambda values: np.array(values, dtype=np.bool_))
 ticks = st.integers(min_value=1, max_value=8)

@@ -32,7 +32,8 @@ from tests.fluents.liquids import (
 from tests.fluents.logs import Draft
 
 from prolepsis.fluents import recognize
-from prolepsis.things import FloatArray, Geom, Hole, Shape, Thing, Triple
+from prolepsis.geometry.shape import FloatArray, Geom, Hole, Shape, Triple
+from prolepsis.log.things import Thing
 
 IN = {"contains(cup1,liq1)"}
 ON_TABLE = {"spilled(liq1)", "supports(table1,liq1)"}

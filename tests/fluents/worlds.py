@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.engine import mujoco
 from prolepsis.fluents import recognize
-from prolepsis.log import Log
-from prolepsis.things import FloatArray, Thing
-from prolepsis.timeline import Timeline
+from prolepsis.geometry.shape import FloatArray
+from prolepsis.log.log import Log
+from prolepsis.log.things import Thing
+from prolepsis.log.timeline import Timeline
+from prolepsis.system.mujoco import mujoco
 
 Control = Callable[[Any, Any], None]
 STEP = 0.002

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from prolepsis.errors import InconsistentError
 from prolepsis.knowledge import KnowledgeBase
+from prolepsis.terms.errors import InconsistentError
 
 HEAD = """
 @prefix : <https://w3id.org/prolepsis#> .

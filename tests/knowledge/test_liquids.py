@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from situations import load
 
-from prolepsis.errors import KnowledgeError
 from prolepsis.knowledge import KnowledgeBase
+from prolepsis.terms.errors import KnowledgeError
 
 LIQUIDS = {
     "Water": (998.0, 0.001),

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 from situations import load
 
-from prolepsis.errors import InconsistentError
 from prolepsis.knowledge.alike import alike, counts_along_chains
 from prolepsis.knowledge.axioms import Axiom
 from prolepsis.knowledge.chaining import chain, clashes, clashing, is_whole
+from prolepsis.terms.errors import InconsistentError
 
 
 def axioms(*texts: str) -> tuple[Axiom, ...]:

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from situations import load
 
-from prolepsis.errors import KnowledgeError
 from prolepsis.knowledge import KnowledgeBase
+from prolepsis.terms.errors import KnowledgeError
 
 
 def total(base: KnowledgeBase, whole: str) -> float:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 from rdflib import OWL, RDF, URIRef
 
-from prolepsis.errors import UnknownNameError
 from prolepsis.knowledge import KnowledgeBase
 from prolepsis.knowledge.turtle import built_in_documents, local_name
+from prolepsis.terms.errors import UnknownNameError
 
 HAS_UNIT = URIRef("http://qudt.org/schema/qudt/hasUnit")
 PRO = "https://w3id.org/prolepsis#"

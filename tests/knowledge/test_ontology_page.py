@@ -10,9 +10,9 @@ import pytest
 from prolepsis.knowledge import KnowledgeBase
 from prolepsis.knowledge.masses import TOLERANCE
 from prolepsis.knowledge.reasoner import LIMIT_VARIABLE, TIME_LIMIT
-from prolepsis.scenario import FEWEST_PARTICLES, MOST_PARTICLES, Scenario
-from prolepsis.scene import compose
-from prolepsis.terms import format_value
+from prolepsis.scenario.scenario import FEWEST_PARTICLES, MOST_PARTICLES, Scenario
+from prolepsis.scene.compose import compose
+from prolepsis.terms.terms import format_value
 
 PAGE = Path(__file__).parents[2] / "docs" / "ontology.md"
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from prolepsis.errors import KnowledgeError
 from prolepsis.knowledge.axioms import Axiom
 from prolepsis.knowledge.chaining import clashes
 from prolepsis.knowledge.reasoner import is_consistent
+from prolepsis.terms.errors import KnowledgeError
 
 DECLARED = tuple(f"Declaration(Class(<c:{name}>))" for name in "ABN") + ("Declaration(ObjectProperty(<r:r>))",)
 

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 from situations import PREFIX, load
 
-from prolepsis.errors import InconsistentError, KnowledgeError
-from prolepsis.scenario import Scenario
+from prolepsis.scenario.scenario import Scenario
+from prolepsis.terms.errors import InconsistentError, KnowledgeError
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
 EGG = ":egg1 a :Egg ."

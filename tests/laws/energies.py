@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from prolepsis.fluents.rigid import multiply, rotate, rotate_back
-from prolepsis.log import Log
-from prolepsis.scene.world import World
-from prolepsis.things import FloatArray
+from prolepsis.engine.world import World
+from prolepsis.geometry.rigid import multiply, rotate, rotate_back
+from prolepsis.geometry.shape import FloatArray
+from prolepsis.log.log import Log
 
 WINDOW = 0.1
 """The energy is the greatest within this time [s]: meanwhile contacts store and return some."""

@@ -8,12 +8,12 @@ import pytest
 from hypothesis import HealthCheck, given, reject, settings
 from hypothesis import strategies as st
 
-from prolepsis.errors import KnowledgeError
 from prolepsis.knowledge.alike import alike
 from prolepsis.knowledge.axioms import Axiom
 from prolepsis.knowledge.chaining import chain, clashing, is_whole
 from prolepsis.knowledge.reasoner import is_consistent
 from prolepsis.knowledge.reasoning import Probe, denials
+from prolepsis.terms.errors import KnowledgeError
 
 SLOW = (HealthCheck.too_slow, HealthCheck.filter_too_much)
 CLASSES = [f"<c:{name}>" for name in "ABCD"]

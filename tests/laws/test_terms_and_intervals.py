@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from prolepsis.allen import INVERSES, RELATIONS, Interval, relation
-from prolepsis.errors import InputError
-from prolepsis.terms import Term, Value, Variable, format_value, parse_term
-from prolepsis.timeline import Fact, Timeline, make_timeline
+from prolepsis.log.timeline import Fact, Timeline, make_timeline
+from prolepsis.terms.allen import INVERSES, RELATIONS, Interval, relation
+from prolepsis.terms.errors import InputError
+from prolepsis.terms.terms import Term, Value, Variable, format_value, parse_term
 
 NAMES = st.sampled_from(
     ["egg1", "-", "+", ":-", "is", "mod", ",", "|", "[]", "{}", "don't", "A b", "é", "\\+"]

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from prolepsis.log.timeline import make_timeline
 from prolepsis.logic.session import Session
-from prolepsis.terms import Term, Value, format_value, parse_term
-from prolepsis.timeline import make_timeline
+from prolepsis.terms.terms import Term, Value, format_value, parse_term
 
 EMPTY = make_timeline([], dt=0.001, duration=1.0)
 SESSION = Session()

@@ -6,13 +6,12 @@ import numpy as np
 from tests.laws.energies import energies
 from tests.scenes import scene
 
+from prolepsis.engine.simulation import simulate
+from prolepsis.engine.world import World, compile_world
 from prolepsis.fluents import recognize
-from prolepsis.log import Log
+from prolepsis.log.log import Log
 from prolepsis.programs import read_program
-from prolepsis.scene import compile_world
-from prolepsis.scene.world import World
-from prolepsis.simulation import simulate
-from prolepsis.terms import parse_term
+from prolepsis.terms.terms import parse_term
 
 PARTICLES = 200
 """Particles in a full cup: coarse, since a table has many rows."""

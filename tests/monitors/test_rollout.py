@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 from tests.fluents.worlds import FLOOR, HAND, HAND_DRIVES, STEP, ball, box, roll, world
 
-from prolepsis.engine import mujoco
-from prolepsis.errors import InputError, InvalidSimulationError, UnknownNameError
-from prolepsis.log import Log
-from prolepsis.things import FloatArray, Thing
+from prolepsis.geometry.shape import FloatArray
+from prolepsis.log.log import Log
+from prolepsis.log.things import Thing
+from prolepsis.system.mujoco import mujoco
+from prolepsis.terms.errors import InputError, InvalidSimulationError, UnknownNameError
 
 
 @pytest.mark.parametrize("cone", ["elliptic", "pyramidal"])

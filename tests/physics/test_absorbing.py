@@ -8,15 +8,16 @@ import numpy as np
 import pytest
 from tests.scenes import run, scene
 
-from prolepsis.engine import mujoco
-from prolepsis.log import FREE, Log
-from prolepsis.phenomena import absorbing, flowing
-from prolepsis.phenomena.carried_mass import CarriedMass
-from prolepsis.phenomena.phenomenon import Draw
-from prolepsis.phenomena.sponge_law import SpongeLaw
-from prolepsis.scene import compile_world
-from prolepsis.state import State
-from prolepsis.things import FloatArray
+from prolepsis.engine.state import State
+from prolepsis.engine.world import compile_world
+from prolepsis.geometry.shape import FloatArray
+from prolepsis.log.log import FREE, Log
+from prolepsis.matter.liquids import flowing
+from prolepsis.matter.phenomenon import Draw
+from prolepsis.matter.shells.carried_mass import CarriedMass
+from prolepsis.matter.sponges import absorbing
+from prolepsis.matter.sponges.sponge_law import SpongeLaw
+from prolepsis.system.mujoco import mujoco
 
 SIZE = ":length 0.06 ; :width 0.05 ; :height 0.02"
 DRY = 0.003

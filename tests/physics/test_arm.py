@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from tests.scenes import run, scene
 
+from prolepsis.engine.world import compile_world
 from prolepsis.fluents import recognize
-from prolepsis.log import Log
+from prolepsis.log.log import Log
 from prolepsis.robots.inverse import ArmKinematics, Found
 from prolepsis.robots.model_file import OTHERS, OWN
 from prolepsis.robots.pr2 import PR2
-from prolepsis.scene import compile_world
 
 BLOCK = (
     ":floor a :Floor . :table1 a :Table . :block1 a :Block ; :on :table1 ; :length 0.05 ; :width 0.05 ; :height 0.07 "

@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from prolepsis.errors import KnowledgeError
-from prolepsis.phenomena.bond_graph import BondGraph
-from prolepsis.phenomena.shell_calibration import calibrated_graph
-from prolepsis.shapes.egg import ellipsoid_normals, ellipsoid_points, ellipsoid_shell
-from prolepsis.things import FloatArray
+from prolepsis.geometry.shape import FloatArray
+from prolepsis.matter.shells.bond_graph import BondGraph
+from prolepsis.matter.shells.shell_calibration import calibrated_graph
+from prolepsis.scene.shapes.egg import ellipsoid_normals, ellipsoid_points, ellipsoid_shell
+from prolepsis.terms.errors import KnowledgeError
 
 AXES = (0.0285, 0.022, 0.022)
 

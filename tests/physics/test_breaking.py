@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from tests.scenes import EGG_IN_HAND, falling_egg, run, scene
 
-from prolepsis.engine import mujoco
-from prolepsis.log import Log
-from prolepsis.phenomena.breaking import attach
-from prolepsis.phenomena.phenomenon import Draw
-from prolepsis.phenomena.shell_contact import local_stiffness
-from prolepsis.scene import compile_world
-from prolepsis.state import State
-from prolepsis.things import FloatArray
+from prolepsis.engine.state import State
+from prolepsis.engine.world import compile_world
+from prolepsis.geometry.shape import FloatArray
+from prolepsis.log.log import Log
+from prolepsis.matter.phenomenon import Draw
+from prolepsis.matter.shells.breaking import attach
+from prolepsis.matter.shells.shell_contact import local_stiffness
+from prolepsis.system.mujoco import mujoco
 
 SUBSTEPS = (6.25e-5, 1.25e-4, 2.5e-4)
 MASS = 0.059

@@ -8,9 +8,9 @@ import pytest
 from tests.physics.test_programs import FakeHand, actions_of, carried_out
 from tests.scenes import EGG_IN_HAND, scene
 
-from prolepsis.errors import InputError, PlanError, UnknownNameError
 from prolepsis.programs import read_program
-from prolepsis.programs.commands import (
+from prolepsis.programs.nesting import as_event, nested
+from prolepsis.robots.commands import (
     ActionFailedError,
     Begin,
     Behaviour,
@@ -20,9 +20,9 @@ from prolepsis.programs.commands import (
     OpenGripper,
     Sense,
 )
-from prolepsis.programs.nesting import as_event, nested
-from prolepsis.scene import Scene
-from prolepsis.terms import Term, parse_term
+from prolepsis.scene.scene import Scene
+from prolepsis.terms.errors import InputError, PlanError, UnknownNameError
+from prolepsis.terms.terms import Term, parse_term
 
 TWO_HANDS = EGG_IN_HAND + " :hand2 a :Gripper ; :x 0.5 ; :z 0.9 ."
 

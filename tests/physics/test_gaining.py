@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from tests.scenes import run
 
-from prolepsis.errors import InvalidSimulationError
+from prolepsis.terms.errors import InvalidSimulationError
 
 FLOOR = ":floor a :Floor . "
 TABLE = FLOOR + ":table1 a :Table . "

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from prolepsis.engine import mujoco
+from prolepsis.geometry.shape import FloatArray
 from prolepsis.robots import pr2
-from prolepsis.things import FloatArray
+from prolepsis.system.mujoco import mujoco
 
 FILE = Path(pr2.__file__).with_name("pr2.xml")
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import pytest
 from tests.scenes import EGG_IN_HAND, scene
 
-from prolepsis.errors import InputError, PlanError, UnknownNameError
+from prolepsis.geometry.shape import IDENTITY, Triple
 from prolepsis.programs import ACTIONS, check_units, read_program
-from prolepsis.programs.commands import Begin, CloseGripper, Command, End, HandSense, HandTarget, OpenGripper, Sense
+from prolepsis.robots.commands import Begin, CloseGripper, Command, End, HandSense, HandTarget, OpenGripper, Sense
 from prolepsis.robots.hand import HAND
-from prolepsis.scene import Scene
-from prolepsis.terms import Term, parse_term
-from prolepsis.things import IDENTITY, Triple
+from prolepsis.scene.scene import Scene
+from prolepsis.terms.errors import InputError, PlanError, UnknownNameError
+from prolepsis.terms.terms import Term, parse_term
 
 
 @pytest.fixture(scope="module")

@@ -15,17 +15,18 @@ import pyarrow.parquet as parquet  # pyright: ignore[reportMissingTypeStubs]
 import pytest
 from tests.scenes import scene
 
-from prolepsis.errors import InputError
-from prolepsis.log import Log
+from prolepsis.engine.simulation import simulate
+from prolepsis.engine.world import compile_world
+from prolepsis.geometry.shape import FloatArray
+from prolepsis.log.log import Log
 from prolepsis.programs import read_program
 from prolepsis.programs.recording import read_recording
 from prolepsis.projection import project
 from prolepsis.robots.pr2 import PR2
 from prolepsis.robots.turned import product
-from prolepsis.scene import Scene, compile_world
-from prolepsis.simulation import simulate
-from prolepsis.terms import parse_term
-from prolepsis.things import FloatArray
+from prolepsis.scene.scene import Scene
+from prolepsis.terms.errors import InputError
+from prolepsis.terms.terms import parse_term
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 HAND = ":floor a :Floor . :hand1 a :Gripper ; :z 1.0 ."

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from tests.scenes import run, scene
 
-from prolepsis.errors import KnowledgeError
-from prolepsis.log import Log
-from prolepsis.shapes.egg import ellipsoid_shell
+from prolepsis.log.log import Log
+from prolepsis.scene.shapes.egg import ellipsoid_shell
+from prolepsis.terms.errors import KnowledgeError
 
 
 def pressed(kind: str, height: float, opening: float, force: float, duration: float = 1.6) -> Log:

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from tests.scenes import EGG_IN_HAND, falling_egg, run, scene
 
-from prolepsis.engine import mujoco
-from prolepsis.errors import InvalidSimulationError, KnowledgeError, ScenarioError, UnknownNameError
-from prolepsis.log import Log
-from prolepsis.monitors.channels import MONITORS
+from prolepsis.engine.channels import MONITORS
+from prolepsis.engine.simulation import simulate
+from prolepsis.engine.world import compile_world
+from prolepsis.log.log import Log
 from prolepsis.programs import read_program
-from prolepsis.scene import compile_world
-from prolepsis.simulation import simulate
-from prolepsis.terms import parse_term
+from prolepsis.system.mujoco import mujoco
+from prolepsis.terms.errors import InvalidSimulationError, KnowledgeError, ScenarioError, UnknownNameError
+from prolepsis.terms.terms import parse_term
 
 TWO_BLOCKS = ":floor a :Floor . :block1 a :Block ; :on :floor . :block2 a :Block ; :on :block1 ."
 

@@ -10,8 +10,8 @@ import pytest
 from tests.scenes import PREFIX, run
 
 from prolepsis.cli import main
-from prolepsis.errors import InvalidSimulationError, KnowledgeError
 from prolepsis.projection import project
+from prolepsis.terms.errors import InvalidSimulationError, KnowledgeError
 
 FLOOR = ":floor a :Floor . "
 TABLE = FLOOR + ":table1 a :Table . "

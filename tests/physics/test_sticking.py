@@ -8,14 +8,15 @@ import numpy as np
 import pytest
 from tests.scenes import run, scene
 
-from prolepsis.engine import mujoco
+from prolepsis.engine.state import State
+from prolepsis.engine.world import compile_world
 from prolepsis.fluents import recognize
-from prolepsis.log import FREE, Log
-from prolepsis.phenomena import flowing, sticking
-from prolepsis.phenomena.adhesion import Adhesion, Hold
-from prolepsis.phenomena.phenomenon import Draw
-from prolepsis.scene import compile_world
-from prolepsis.state import State
+from prolepsis.log.log import FREE, Log
+from prolepsis.matter.films import sticking
+from prolepsis.matter.films.adhesion import Adhesion, Hold
+from prolepsis.matter.liquids import flowing
+from prolepsis.matter.phenomenon import Draw
+from prolepsis.system.mujoco import mujoco
 
 
 @pytest.fixture(scope="module")

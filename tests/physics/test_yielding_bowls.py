@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 from tests.scenes import run, scene
 
-from prolepsis.engine import mujoco
-from prolepsis.errors import KnowledgeError
+from prolepsis.engine.state import State
+from prolepsis.engine.world import compile_world
 from prolepsis.fluents import recognize
-from prolepsis.log import Log
-from prolepsis.phenomena.denting import Denting, attach
-from prolepsis.phenomena.phenomenon import Draw
-from prolepsis.scene import compile_world
-from prolepsis.shapes.panels import resistance
-from prolepsis.state import State
+from prolepsis.log.log import Log
+from prolepsis.matter.phenomenon import Draw
+from prolepsis.matter.walls.denting import Denting, attach
+from prolepsis.scene.shapes.panels import resistance
+from prolepsis.system.mujoco import mujoco
+from prolepsis.terms.errors import KnowledgeError
 
 RADIUS, HEIGHT = 0.08, 0.06
 MIDDLE = math.tau / 20

@@ -8,11 +8,11 @@ from pathlib import Path
 
 from tests.synthetic import egg_drop_log
 
-from prolepsis.log_files import write_log
+from prolepsis.log.files import write_log
 
 SCRIPT = """
 import os, sys
-from prolepsis.log_files import read_log
+from prolepsis.log.files import read_log
 from prolepsis.report.render import pictures, render_strip
 
 log = read_log(sys.argv[1])

@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from prolepsis.log import FREE, PARKED, Contacts, Log, Particles
+from prolepsis.geometry.shape import FloatArray, Geom, Hole, Shape
+from prolepsis.log.log import FREE, PARKED, Contacts, Log, Particles
+from prolepsis.log.things import Thing
 from prolepsis.report.droplets import Droplets
 from prolepsis.report.lathe import turned_surface
 from prolepsis.report.liquid import Picture
 from prolepsis.report.render import pictures
-from prolepsis.things import FloatArray, Geom, Hole, Shape, Thing
 
 SPACING = 0.004
 FLOOR, SPONGE, LIQUID = 0, 1, 2

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from prolepsis.errors import InputError
 from prolepsis.report.plot import COLOURS, Line, plot_lines
+from prolepsis.terms.errors import InputError
 
 TIME = np.linspace(0.0, 2.0, 20001)
 

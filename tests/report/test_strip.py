@@ -9,8 +9,8 @@ import pytest
 from PIL import Image
 from tests.scenes import EGG_IN_HAND, run
 
-from prolepsis.errors import InputError
 from prolepsis.report.render import render_strip
+from prolepsis.terms.errors import InputError
 
 
 def test_a_part_is_what_the_whole_shows_there(tmp_path: Path) -> None:

@@ -10,15 +10,16 @@ import pytest
 from scipy import spatial  # pyright: ignore[reportMissingTypeStubs]
 from tests.scenes import PREFIX, scene
 
-from prolepsis.errors import KnowledgeError
-from prolepsis.fields.signed_distance import field_of
-from prolepsis.fields.solids import matrix
+from prolepsis.geometry.shape import FloatArray
+from prolepsis.geometry.signed_distance import field_of
+from prolepsis.geometry.solids import matrix
 from prolepsis.knowledge import KnowledgeBase
-from prolepsis.scene import Scene, compose
-from prolepsis.scene.basin import basin_of
-from prolepsis.scene.scene import Pool
-from prolepsis.shapes import SHAPES
-from prolepsis.things import FloatArray, Thing
+from prolepsis.log.things import Thing
+from prolepsis.matter.liquids.basin import basin_of
+from prolepsis.scene.compose import compose
+from prolepsis.scene.scene import Pool, Scene
+from prolepsis.scene.shapes import SHAPES
+from prolepsis.terms.errors import KnowledgeError
 
 TABLE = ":table1 a :Table . "
 CUP = {"radius": 0.04, "height": 0.09, "thickness": 0.005}

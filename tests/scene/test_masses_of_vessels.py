@@ -7,7 +7,7 @@ import math
 import pytest
 from tests.scenes import scene
 
-from prolepsis.scene import compile_world
+from prolepsis.engine.world import compile_world
 
 
 def test_a_cup_s_centre_of_mass_is_that_of_its_wall_and_bottom() -> None:

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 import trimesh
 
-from prolepsis.errors import KnowledgeError
-from prolepsis.fields import turned
-from prolepsis.fields.meshes import enclosed_volume, read_surface
-from prolepsis.fields.solids import solid_of
+from prolepsis.geometry import turned
+from prolepsis.geometry.meshes import enclosed_volume, read_surface
+from prolepsis.geometry.solids import solid_of
 from prolepsis.knowledge import KnowledgeBase
-from prolepsis.scene import compose
-from prolepsis.shapes.mesh import mesh
+from prolepsis.scene.compose import compose
+from prolepsis.scene.shapes.mesh import mesh
+from prolepsis.terms.errors import KnowledgeError
 
 CUP = turned.cup({"radius": 0.04, "height": 0.06, "thickness": 0.006})
 SIDES = 24

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from prolepsis.errors import KnowledgeError
-from prolepsis.fields import turned
-from prolepsis.fields.signed_distance import field_of
-from prolepsis.fields.solids import solid_of
-from prolepsis.shapes import SHAPES
-from prolepsis.things import FloatArray, Shape
+from prolepsis.geometry import turned
+from prolepsis.geometry.shape import FloatArray, Shape
+from prolepsis.geometry.signed_distance import field_of
+from prolepsis.geometry.solids import solid_of
+from prolepsis.scene.shapes import SHAPES
+from prolepsis.terms.errors import KnowledgeError
 
 CUP = {"radius": 0.04, "height": 0.09, "thickness": 0.005}
 BOWL = {"radius": 0.08, "height": 0.06, "thickness": 0.005}

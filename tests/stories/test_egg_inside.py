@@ -9,7 +9,7 @@ import pytest
 from tests.scenes import run
 
 from prolepsis.fluents import recognize
-from prolepsis.log import FREE, PARKED
+from prolepsis.log.log import FREE, PARKED
 from prolepsis.projection import Projection, project
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

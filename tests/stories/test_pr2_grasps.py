@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from prolepsis.outcome import judge_grasp
+from prolepsis.campaigns.outcome import judge_grasp
 from prolepsis.projection import Projection, project
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

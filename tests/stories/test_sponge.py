@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from prolepsis.log import FREE, PARKED
+from prolepsis.log.log import FREE, PARKED
 from prolepsis.projection import Projection, project
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -5,12 +5,12 @@ from __future__ import annotations
 import pytest
 from tests.scenes import scene
 
+from prolepsis.engine.simulation import simulate
+from prolepsis.engine.world import compile_world
 from prolepsis.fluents import recognize
+from prolepsis.log.timeline import Timeline
 from prolepsis.programs import read_program
-from prolepsis.scene import compile_world
-from prolepsis.simulation import simulate
-from prolepsis.terms import parse_term
-from prolepsis.timeline import Timeline
+from prolepsis.terms.terms import parse_term
 
 ON_THE_TABLE = """:floor a :Floor . :table1 a :Table .
 :bowl1 a :Bowl ; :on :table1 . :egg1 a :Egg ; :on :bowl1 .

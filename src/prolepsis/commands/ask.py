@@ -7,7 +7,7 @@ import os
 from typing import Any
 
 from prolepsis.commands.output import add_command, bindings, json_line, plain, warn_unchecked
-from prolepsis.errors import InputError
+from prolepsis.terms.errors import InputError
 
 EXAMPLE = """\
   prolepsis ask out/drop 'holds(F, T), objOf(F, egg1)'
@@ -44,8 +44,8 @@ def run(given: argparse.Namespace) -> int:
         raise InputError(f"--limit {given.limit}: at least 1 answer must be allowed")
     if given.require_confinement:
         os.environ["PROLEPSIS_REQUIRE_CONFINEMENT"] = "1"
+    from prolepsis.log.saved import read_timeline
     from prolepsis.logic.session import Session, shared_session
-    from prolepsis.saved import read_timeline
 
     timeline = read_timeline(given.folder)
     session = Session(chronicles=tuple(given.chronicles)) if given.chronicles else shared_session()

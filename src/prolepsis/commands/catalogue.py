@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from prolepsis.commands.output import add_command, table
-from prolepsis.errors import UnknownNameError
+from prolepsis.terms.errors import UnknownNameError
 
 if TYPE_CHECKING:
     from prolepsis.fluents.registry import FactType

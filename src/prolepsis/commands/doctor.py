@@ -16,7 +16,7 @@ from importlib.metadata import PackageNotFoundError, requires, version
 from typing import IO, Any, cast
 
 from prolepsis.commands.output import add_command, table
-from prolepsis.errors import MissingToolError
+from prolepsis.terms.errors import MissingToolError
 
 EXAMPLE = """\
   prolepsis doctor
@@ -125,8 +125,8 @@ def _pictures() -> str:
     try:
         import numpy as np
 
-        from prolepsis.engine import mujoco
         from prolepsis.report.offscreen import Camera
+        from prolepsis.system.mujoco import mujoco
 
         spec = mujoco.MjSpec()
         spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=(1.0, 0.0, 0.0), rgba=(1.0, 0.0, 0.0, 1.0))

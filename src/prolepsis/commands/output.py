@@ -14,10 +14,10 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import TYPE_CHECKING, Any, TextIO
 
-from prolepsis.errors import InputError, Note, error_line
+from prolepsis.terms.errors import InputError, Note, error_line
 
 if TYPE_CHECKING:
-    from prolepsis.terms import Value
+    from prolepsis.terms.terms import Value
 
 QUIET = 1.0
 """No progress is shown before this time [s]."""
@@ -138,7 +138,7 @@ def json_line(row: Mapping[str, Any]) -> str:
 
 def plain(value: Value) -> Any:
     """Return an answer's value for JSON: numbers, names and lists as they are, terms as Prolog writes them."""
-    from prolepsis.terms import format_value
+    from prolepsis.terms.terms import format_value
 
     if isinstance(value, tuple):
         return [plain(item) for item in value]
@@ -147,14 +147,14 @@ def plain(value: Value) -> Any:
 
 def bindings(answer: Mapping[str, Value]) -> str:
     """Return an answer for people, ``F = broken(egg1), T = 0.4-2.0``; of a goal without variables, ``yes``."""
-    from prolepsis.terms import format_value
+    from prolepsis.terms.terms import format_value
 
     return ", ".join(f"{name} = {format_value(_rounded(value))}" for name, value in answer.items()) or "yes"
 
 
 def _rounded(value: Value) -> Value:
     """Return a value with numbers rounded to a microsecond, micrometre or micronewton."""
-    from prolepsis.terms import Term
+    from prolepsis.terms.terms import Term
 
     if isinstance(value, Term):
         return Term(value.functor, tuple(_rounded(argument) for argument in value.args))

@@ -8,7 +8,7 @@ from importlib.metadata import version
 from typing import NoReturn
 
 from prolepsis.commands import ask, catalogue, doctor, project, render, sweep, timeline
-from prolepsis.errors import error_line
+from prolepsis.terms.errors import error_line
 
 DESCRIPTION = """\
 Ask what happens if a robot does this: prolepsis simulates the action in detail and answers in symbols.

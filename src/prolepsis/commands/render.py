@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from prolepsis.commands.output import add_command, add_progress, progress_line
-from prolepsis.errors import InputError
+from prolepsis.terms.errors import InputError
 
 EXAMPLE = """\
   prolepsis render out/drop --out out/drop.mp4 --speed 0.25
@@ -44,7 +44,7 @@ def run(given: argparse.Namespace) -> int:
             raise InputError(f"{name}: lies in the saved folder; give a name outside of {given.folder}")
     size = _size(given.size)
     times = None if given.times is None else [_number(time, "--times") for time in given.times.split(",")]
-    from prolepsis.log_files import read_log
+    from prolepsis.log.files import read_log
     from prolepsis.report.render import render_frames, render_strip, render_video
 
     log = read_log(given.folder)

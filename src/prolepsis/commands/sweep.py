@@ -17,10 +17,10 @@ from prolepsis.commands.output import (
     table,
     warn_unchecked,
 )
-from prolepsis.errors import InputError
+from prolepsis.terms.errors import InputError
 
 if TYPE_CHECKING:
-    from prolepsis.campaign import Outcomes, Row
+    from prolepsis.campaigns.campaign import Outcomes, Row
 
 EXAMPLE = """\
   prolepsis sweep examples/grasp_egg.toml --over Force=force1,force5,force12
@@ -67,7 +67,7 @@ def run(given: argparse.Namespace) -> int:
         raise InputError(f"--refine {given.refine}: between 0 and {MOST_HALVINGS} halvings are allowed")
     over = {name: _values(name, text) for name, text in settings(given.over).items()}
     chosen = settings(given.set)
-    from prolepsis.campaign import sweep
+    from prolepsis.campaigns.campaign import sweep
 
     with progress_line(given.progress) as show:
         outcomes = sweep(

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from prolepsis.commands.output import add_command, json_line, table, warn_unchecked
 
 if TYPE_CHECKING:
-    from prolepsis.timeline import Timeline
+    from prolepsis.log.timeline import Timeline
 
 EXAMPLE = """\
   prolepsis timeline out/drop
@@ -28,7 +28,7 @@ def add_to(commands: Any) -> None:
 
 def run(given: argparse.Namespace) -> int:
     """Print the facts."""
-    from prolepsis.saved import read_timeline
+    from prolepsis.log.saved import read_timeline
 
     timeline = read_timeline(given.folder)
     warn_unchecked(timeline.domain.unchecked)
@@ -42,7 +42,7 @@ def run(given: argparse.Namespace) -> int:
 
 def rows(timeline: Timeline) -> list[tuple[str, str, str, str, str]]:
     """Return a heading and a row for each fact."""
-    from prolepsis.terms import format_value
+    from prolepsis.terms.terms import format_value
 
     facts = [
         (f"{fact.start:.3f}", f"{fact.end:.3f}", fact.kind, format_value(fact.term), evidence(fact.evidence))

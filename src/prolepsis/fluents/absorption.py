@@ -12,9 +12,9 @@ from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.particle_places import places
 from prolepsis.fluents.registry import event
 from prolepsis.fluents.touch import touches
-from prolepsis.log import FREE
-from prolepsis.things import BoolArray
-from prolepsis.timeline import Fact
+from prolepsis.geometry.shape import BoolArray
+from prolepsis.log.log import FREE
+from prolepsis.log.timeline import Fact
 
 WIPE = "wipe"
 """The action ``wipe(hand, sponge, surface, ...)``."""

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import Grounding, event
-from prolepsis.terms import Value, format_value
-from prolepsis.timeline import Argument, Fact
+from prolepsis.log.timeline import Argument, Fact
+from prolepsis.terms.terms import Value, format_value
 
 _VOWELS = "aeiou"
 ACTIONS = (

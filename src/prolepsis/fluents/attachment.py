@@ -12,11 +12,11 @@ from prolepsis.fluents.intervals import close_gaps, debounce, mask_of, ticks_of,
 from prolepsis.fluents.kinematics import centres
 from prolepsis.fluents.observation import Observation, is_held_from_outside, is_loose
 from prolepsis.fluents.registry import fluent
-from prolepsis.fluents.rigid import rotate_back
 from prolepsis.fluents.support import NOTICEABLE_SHARE, supporters
 from prolepsis.fluents.touch import Touch, touches
-from prolepsis.things import BoolArray, FloatArray, IntArray
-from prolepsis.timeline import Fact
+from prolepsis.geometry.rigid import rotate_back
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.log.timeline import Fact
 
 SQUEEZE = 0.5
 """Least share of the pressing forces [1] that cancel out in a grip; in a groove of 45 degrees it is 0.3."""

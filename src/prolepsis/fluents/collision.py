@@ -11,10 +11,10 @@ from prolepsis.fluents.intervals import ticks_of
 from prolepsis.fluents.kinematics import centres, surface_speeds, velocities
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event
-from prolepsis.fluents.rigid import cross, multiply
 from prolepsis.fluents.touch import Touch, touches
-from prolepsis.things import FloatArray, IntArray
-from prolepsis.timeline import Fact
+from prolepsis.geometry.rigid import cross, multiply
+from prolepsis.geometry.shape import FloatArray, IntArray
+from prolepsis.log.timeline import Fact
 
 MEETING_SPEED = 0.05
 """Least closing speed of things that were apart [m/s]: the speed after a fall of 0.1 mm."""

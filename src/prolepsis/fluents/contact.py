@@ -10,7 +10,7 @@ from prolepsis.fluents.intervals import debounce
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import fluent
 from prolepsis.fluents.touch import Touch, touches
-from prolepsis.timeline import Fact
+from prolepsis.log.timeline import Fact
 
 FLICKER = 0.03
 """Gap in a contact that is not noticed [s]: a resting body hops for some 10-20 ms at a time, a bounce that one

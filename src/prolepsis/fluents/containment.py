@@ -14,8 +14,8 @@ from prolepsis.fluents.observation import Observation, is_held_from_outside
 from prolepsis.fluents.registry import fluent
 from prolepsis.fluents.shapes_in_time import RigidShape, rigid_shapes
 from prolepsis.fluents.support import support_runs, supporters
-from prolepsis.things import BoolArray, FloatArray, IntArray
-from prolepsis.timeline import Fact
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.log.timeline import Fact
 
 NOTICEABLE_FRACTION = 0.02
 """Fraction of a stuff's mass [1] that is noticed: inside a container, on a surface, or spilled."""

@@ -9,8 +9,8 @@ import numpy as np
 from prolepsis.fluents.intervals import debounce
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event, fluent
-from prolepsis.things import IntArray
-from prolepsis.timeline import Fact
+from prolepsis.geometry.shape import IntArray
+from prolepsis.log.timeline import Fact
 
 BURST = 0.01
 """Time between two detachments within one burst of breaking [s]: a crack runs through a shell in far less."""

@@ -6,8 +6,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from prolepsis.errors import InvalidSimulationError
-from prolepsis.timeline import Evidence
+from prolepsis.log.timeline import Evidence
+from prolepsis.terms.errors import InvalidSimulationError
 
 ROUNDING = 1.0e-9
 """Sums of shares are off by no more than this [1]."""

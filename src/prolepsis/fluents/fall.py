@@ -14,8 +14,8 @@ from prolepsis.fluents.observation import Observation, is_loose
 from prolepsis.fluents.registry import event
 from prolepsis.fluents.support import supporters
 from prolepsis.fluents.touch import touches
-from prolepsis.things import BoolArray, FloatArray, IntArray
-from prolepsis.timeline import Fact
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.log.timeline import Fact
 
 FREE_FALL = 0.9
 """Downward acceleration that every fall reaches, as a share of gravity [1]: a flap that swings down on its hinge

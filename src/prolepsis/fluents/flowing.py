@@ -12,10 +12,10 @@ from prolepsis.fluents.intervals import close_gaps, runs, ticks_of
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.particle_places import Inside, Places, places
 from prolepsis.fluents.registry import event
-from prolepsis.fluents.rigid import rotate
-from prolepsis.log import FREE, PARKED
-from prolepsis.things import BoolArray, IntArray
-from prolepsis.timeline import Fact
+from prolepsis.geometry.rigid import rotate
+from prolepsis.geometry.shape import BoolArray, IntArray
+from prolepsis.log.log import FREE, PARKED
+from prolepsis.log.timeline import Fact
 
 STREAM_WINDOW = 0.3
 """Time over which a stream is looked at [s]: drops that follow each other within it are one stream."""

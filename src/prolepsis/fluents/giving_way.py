@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from prolepsis.fluents.intervals import debounce
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import fluent
-from prolepsis.timeline import Fact
+from prolepsis.log.timeline import Fact
 
 NOTICEABLE_DENT = 1.0e-3
 """A dent is noticed when the rim stays out of place by this [m]."""

@@ -10,8 +10,8 @@ from prolepsis.fluents.actions import argument_of
 from prolepsis.fluents.intervals import debounce, ticks_of
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event
-from prolepsis.things import BoolArray, FloatArray
-from prolepsis.timeline import Argument, Fact
+from prolepsis.geometry.shape import BoolArray, FloatArray
+from prolepsis.log.timeline import Argument, Fact
 
 FINGER_SPEED = 0.002
 """Speed of the gap between two fingers [m/s] above which a gripper without a logged state opens or closes."""

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from prolepsis.fields.cavity import ORIENTATIONS, Cavity, cavity_of
-from prolepsis.fields.solids import samples
 from prolepsis.fluents.intervals import mask_of, runs, ticks_of
 from prolepsis.fluents.observation import Observation
-from prolepsis.fluents.rigid import rotate, rotate_back
 from prolepsis.fluents.shapes_in_time import RigidShape
-from prolepsis.things import BoolArray, FloatArray, IntArray
+from prolepsis.geometry.cavity import ORIENTATIONS, Cavity, cavity_of
+from prolepsis.geometry.rigid import rotate, rotate_back
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.geometry.solids import samples
 
 INSIDE_SHARE = 0.5
 """Share of x's volume [1] below the spill level from which x is inside: an apple on a plate is not, a ball that

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from prolepsis.things import BoolArray, FloatArray, IntArray
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 
 
 def ticks_of(seconds: float, dt: float) -> int:

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.fields.solids import centroid, radius
 from prolepsis.fluents.intervals import ticks_of
 from prolepsis.fluents.observation import Observation
-from prolepsis.fluents.rigid import rotate, turn
-from prolepsis.things import BoolArray, FloatArray
+from prolepsis.geometry.rigid import rotate, turn
+from prolepsis.geometry.shape import BoolArray, FloatArray
+from prolepsis.geometry.solids import centroid, radius
 
 BALANCE_WINDOW = 0.05
 """Time over which weight and support are weighed against each other [s]: longer than a contact flickers (10-20

@@ -12,9 +12,9 @@ from prolepsis.fluents.liquid_motion import FLOWING_SPEED, particle_speeds
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.particle_places import Places, places
 from prolepsis.fluents.registry import event, fluent
-from prolepsis.log import PARKED
-from prolepsis.things import BoolArray, FloatArray, IntArray
-from prolepsis.timeline import Evidence, Fact
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.log.log import PARKED
+from prolepsis.log.timeline import Evidence, Fact
 
 RESIDUE_FRACTION = 0.05
 """Fraction of a stuff [1] up to which what still clings to a vessel that was emptied is its residue: it may gather at

@@ -11,9 +11,9 @@ from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.particle_places import Places, places
 from prolepsis.fluents.registry import event
 from prolepsis.fluents.stuff import FLOWING_SPEED, MOST, STUFF_GAP, STUFF_LEAST
-from prolepsis.log import FREE, PARKED
-from prolepsis.things import BoolArray, FloatArray
-from prolepsis.timeline import Fact
+from prolepsis.geometry.shape import BoolArray, FloatArray
+from prolepsis.log.log import FREE, PARKED
+from prolepsis.log.timeline import Fact
 
 FLOWING_WINDOW = 0.1
 """Time over which that speed is taken [s]; what jitters in place gets nowhere."""

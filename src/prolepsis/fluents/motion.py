@@ -11,8 +11,8 @@ from prolepsis.fluents.intervals import close_gaps, runs, ticks_of
 from prolepsis.fluents.kinematics import centres, surface_speeds, travel
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event
-from prolepsis.things import BoolArray, IntArray
-from prolepsis.timeline import Fact
+from prolepsis.geometry.shape import BoolArray, IntArray
+from prolepsis.log.timeline import Fact
 
 MOVING_SPEED = 0.01
 """Mean speed over ``MOVING_WINDOW`` of what is moving [m/s]: half a millimetre in 50 ms. A body that jitters in

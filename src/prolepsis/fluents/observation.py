@@ -13,9 +13,9 @@ from typing import Any, TypeVar, cast
 import numpy as np
 
 from prolepsis.fluents.evidence import possible
-from prolepsis.log import Log
-from prolepsis.things import BoolArray, FloatArray, IntArray
-from prolepsis.timeline import Argument, Evidence, Fact
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.log.log import Log
+from prolepsis.log.timeline import Argument, Evidence, Fact
 
 T = TypeVar("T")
 

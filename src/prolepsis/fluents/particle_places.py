@@ -15,10 +15,10 @@ import numpy as np
 import numpy.typing as npt
 
 from prolepsis.fluents.observation import Observation, is_held_from_outside
-from prolepsis.fluents.rigid import rotate, rotate_back
 from prolepsis.fluents.shapes_in_time import Part, RigidShape, rigid_shapes
-from prolepsis.log import FREE, Particles
-from prolepsis.things import BoolArray, FloatArray, IntArray
+from prolepsis.geometry.rigid import rotate, rotate_back
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.log.log import FREE, Particles
 
 SURFACE_TOLERANCE = 0.75
 """How far above the spill level the centre of a particle may be whose foot is in the pool [spacings]: half a particle,

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from prolepsis.domain import Domain
-from prolepsis.errors import LogError, brief
 from prolepsis.fluents.actions import action_facts
 from prolepsis.fluents.observation import observe
 from prolepsis.fluents.registry import GROUNDINGS
-from prolepsis.log import Log
-from prolepsis.threads import one_thread
-from prolepsis.timeline import Fact, Timeline, make_timeline
+from prolepsis.log.domain import Domain
+from prolepsis.log.log import Log
+from prolepsis.log.timeline import Fact, Timeline, make_timeline
+from prolepsis.system.threads import one_thread
+from prolepsis.terms.errors import LogError, brief
 
 
 @one_thread()

@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Literal
 
-from prolepsis.errors import InputError
 from prolepsis.fluents.observation import Observation
-from prolepsis.timeline import Fact
+from prolepsis.log.timeline import Fact
+from prolepsis.terms.errors import InputError
 
 Grounding = Callable[[Observation], Iterable[Fact]]
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from prolepsis.fields.solids import Solid, bounded, solid_of
 from prolepsis.fluents.observation import Observation
-from prolepsis.fluents.rigid import rotate, rotate_back
-from prolepsis.things import FloatArray
+from prolepsis.geometry.rigid import rotate, rotate_back
+from prolepsis.geometry.shape import FloatArray
+from prolepsis.geometry.solids import Solid, bounded, solid_of
 
 TOUCHING = 0.005
 """Gap between fixed things that counts as touching [m]: how exactly furniture is modelled."""

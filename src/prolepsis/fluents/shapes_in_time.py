@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from prolepsis.fields.cavity import Matter
-from prolepsis.fields.solids import Solid, bounded, matrix
 from prolepsis.fluents.observation import Observation
-from prolepsis.fluents.rigid import multiply, rotate_back
-from prolepsis.things import BoolArray, FloatArray, IntArray, Shape
+from prolepsis.geometry.cavity import Matter
+from prolepsis.geometry.rigid import multiply, rotate_back
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray, Shape
+from prolepsis.geometry.solids import Solid, bounded, matrix
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -49,7 +49,7 @@ class Part:
     def distance(self, points: FloatArray, /) -> FloatArray:
         """Return the signed distance of points in the body's frame to the exact shape [m], (N, 3) to (N,)."""
         # Imported here: a log without exact shapes is recognized without the library that makes their fields fast.
-        from prolepsis.fields.signed_distance import field_of
+        from prolepsis.geometry.signed_distance import field_of
 
         return field_of(self.shape).distance((points - self.shift) @ self.turn)
 

@@ -19,8 +19,8 @@ from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event, fluent
 from prolepsis.fluents.support import support_runs
 from prolepsis.fluents.touch import touches
-from prolepsis.things import BoolArray, FloatArray, IntArray
-from prolepsis.timeline import Fact
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.log.timeline import Fact
 
 FLOWING_SPEED = 0.02
 """Speed of a blob or a particle that flows [m/s]."""

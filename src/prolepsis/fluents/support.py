@@ -13,8 +13,8 @@ from prolepsis.fluents.observation import Observation, is_held_from_outside
 from prolepsis.fluents.registry import fluent
 from prolepsis.fluents.resting import fixed_supports
 from prolepsis.fluents.touch import touches
-from prolepsis.things import FloatArray, IntArray
-from prolepsis.timeline import Fact
+from prolepsis.geometry.shape import FloatArray, IntArray
+from prolepsis.log.timeline import Fact
 
 NOTICEABLE_SHARE = 0.1
 """Share of b's weight [1] that a must bear."""

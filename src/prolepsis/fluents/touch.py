@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from prolepsis.fluents.observation import Observation
-from prolepsis.things import BoolArray, FloatArray, IntArray
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 
 UNDER_COSINE = 0.5
 """A contact lies under what it pushes at when its normal is within 60 degrees of up: grooves and slopes carry

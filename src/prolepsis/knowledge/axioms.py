@@ -10,11 +10,11 @@ from rdflib import OWL, RDF, RDFS, BNode, Graph, URIRef
 from rdflib.collection import Collection
 from rdflib.term import Node
 
-from prolepsis.errors import KnowledgeError
 from prolepsis.knowledge.cells import Cells, range_nodes, read_cells, read_range
 from prolepsis.knowledge.situation import Situation
 from prolepsis.knowledge.turtle import Document, local_name
 from prolepsis.knowledge.vocabulary import Vocabulary
+from prolepsis.terms.errors import KnowledgeError
 
 
 @dataclass(frozen=True, order=True, slots=True)

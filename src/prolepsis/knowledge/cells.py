@@ -17,10 +17,10 @@ from rdflib import OWL, RDF, XSD, Graph, Literal, URIRef
 from rdflib.collection import Collection
 from rdflib.term import Node
 
-from prolepsis.errors import KnowledgeError
 from prolepsis.knowledge.turtle import Document, local_name
 from prolepsis.knowledge.vocabulary import Property, Vocabulary
-from prolepsis.units import to_si
+from prolepsis.terms.errors import KnowledgeError
+from prolepsis.terms.units import to_si
 
 Scalar = float | str
 

@@ -10,11 +10,11 @@ from rdflib import OWL, RDF, RDFS, XSD, BNode, Literal, Namespace, URIRef
 from rdflib.collection import Collection
 from rdflib.term import Node
 
-from prolepsis.errors import KnowledgeError, brief
 from prolepsis.knowledge.turtle import NAMESPACE, Document, local_name
 from prolepsis.knowledge.vocabulary import CERTAINTIES, ClassEntry, Curve, Default, DefaultPart, Property, Vocabulary
 from prolepsis.knowledge.written import read_value
-from prolepsis.units import qudt_symbol, unit_of
+from prolepsis.terms.errors import KnowledgeError, brief
+from prolepsis.terms.units import qudt_symbol, unit_of
 
 PRO = Namespace(NAMESPACE)
 HAS_UNIT = URIRef("http://qudt.org/schema/qudt/hasUnit")

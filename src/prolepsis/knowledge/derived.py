@@ -6,8 +6,8 @@ import math
 from collections.abc import Callable
 from pathlib import Path
 
-from prolepsis.errors import KnowledgeError
-from prolepsis.fields.turned import VESSELS, Vessel
+from prolepsis.geometry.turned import VESSELS, Vessel
+from prolepsis.terms.errors import KnowledgeError
 
 Get = Callable[[str], float | None]
 """Value of a property by name, in SI units, or None."""
@@ -49,7 +49,7 @@ def volume(shape: str, get: Get, file: Callable[[], str | None] = lambda: None) 
         return vessel.volume - holes, "volume of its turned outline"
     path = file() if shape == "mesh" else None
     if path is not None:
-        from prolepsis.fields.meshes import enclosed_volume, read_surface
+        from prolepsis.geometry.meshes import enclosed_volume, read_surface
 
         return enclosed_volume(read_surface(Path(path), get("scale") or 1.0)), "volume of its mesh"
     return None

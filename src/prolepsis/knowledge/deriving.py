@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from prolepsis.errors import KnowledgeError
 from prolepsis.knowledge import derived
 from prolepsis.knowledge.masses import Masses
 from prolepsis.knowledge.values import Known
+from prolepsis.terms.errors import KnowledgeError
 
 if TYPE_CHECKING:
     from prolepsis.knowledge.knowledge_base import KnowledgeBase

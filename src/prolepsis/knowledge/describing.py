@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from prolepsis.errors import UnknownNameError
 from prolepsis.knowledge.vocabulary import CERTAINTIES, ClassEntry, Curve, Property
+from prolepsis.terms.errors import UnknownNameError
 
 if TYPE_CHECKING:
     from prolepsis.knowledge.knowledge_base import KnowledgeBase

@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 from typing import cast
 
-from prolepsis.cache import cache_root, keep, read_kept
+from prolepsis.system.cache import cache_root, keep, read_kept
 
 CACHE_VARIABLE = "PROLEPSIS_CACHE"
 """Environment variable: folder of the kept answers, or empty to keep none."""

@@ -6,8 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from prolepsis.domain import Domain
-from prolepsis.errors import KnowledgeError, UnknownNameError, brief
 from prolepsis.knowledge.declarations import read_vocabulary
 from prolepsis.knowledge.deriving import derive, masses_of
 from prolepsis.knowledge.describing import describe
@@ -18,7 +16,9 @@ from prolepsis.knowledge.turtle import Document, documents_of
 from prolepsis.knowledge.values import Known
 from prolepsis.knowledge.vocabulary import Default, Vocabulary
 from prolepsis.knowledge.written import read_value
-from prolepsis.text_files import path_of
+from prolepsis.log.domain import Domain
+from prolepsis.system.text_files import path_of
+from prolepsis.terms.errors import KnowledgeError, UnknownNameError, brief
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from prolepsis.errors import KnowledgeError
+from prolepsis.terms.errors import KnowledgeError
 
 TOLERANCE = 1e-3
 """Two stated masses agree when they differ by no more than this share [1]: people round."""

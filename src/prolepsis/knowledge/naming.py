@@ -6,8 +6,8 @@ import unicodedata
 
 from rdflib import OWL, RDF, URIRef
 
-from prolepsis.errors import KnowledgeError, brief
 from prolepsis.knowledge.turtle import Document, local_name
+from prolepsis.terms.errors import KnowledgeError, brief
 
 LONGEST_NAME = 100
 """Longest name [characters]."""

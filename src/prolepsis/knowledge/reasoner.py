@@ -11,9 +11,9 @@ from collections.abc import Generator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from prolepsis.errors import KnowledgeError, UndecidedError
 from prolepsis.knowledge.axioms import Axiom
 from prolepsis.knowledge.counting import OverlookedError, counted_on_the_right
+from prolepsis.terms.errors import KnowledgeError, UndecidedError
 
 if TYPE_CHECKING:
     from pyhermit import Reasoner

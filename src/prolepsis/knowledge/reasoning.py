@@ -14,7 +14,6 @@ from importlib.metadata import version
 
 from rdflib import OWL, RDF
 
-from prolepsis.errors import InconsistentError, UndecidedError
 from prolepsis.knowledge.alike import alike, counts_along_chains
 from prolepsis.knowledge.axioms import Axiom, assertions, terminology
 from prolepsis.knowledge.chaining import MOST_STEPS, Chaining, StepsError, chain, clashes, clashing, is_whole
@@ -24,6 +23,7 @@ from prolepsis.knowledge.reasoner import LIMIT_VARIABLE, Budget, is_consistent
 from prolepsis.knowledge.situation import Situation
 from prolepsis.knowledge.turtle import Document
 from prolepsis.knowledge.vocabulary import Vocabulary
+from prolepsis.terms.errors import InconsistentError, UndecidedError
 
 Answer = list[int] | str
 """What is kept of the reasoner: numbers of what follows, or one of these words."""

@@ -8,10 +8,10 @@ from dataclasses import dataclass, field, replace
 
 from rdflib import OWL, RDF, RDFS, BNode, URIRef
 
-from prolepsis.errors import KnowledgeError, UnknownNameError
 from prolepsis.knowledge.turtle import NAMESPACE, Document, local_name
 from prolepsis.knowledge.vocabulary import Vocabulary
 from prolepsis.knowledge.written import read_value
+from prolepsis.terms.errors import KnowledgeError, UnknownNameError
 
 INVERSES = {"partOf": "hasPart", "supports": "on"}
 """Properties that say what another one says, from the other end; only the other one is kept."""

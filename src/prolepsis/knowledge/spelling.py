@@ -5,11 +5,11 @@ from __future__ import annotations
 from rdflib import OWL, RDF, RDFS, URIRef
 from rdflib.term import Node
 
-from prolepsis.errors import UnknownNameError
 from prolepsis.knowledge.declarations import PRO
 from prolepsis.knowledge.naming import refuse_unusable_names
 from prolepsis.knowledge.turtle import NAMESPACE, Document, local_name
 from prolepsis.knowledge.vocabulary import Vocabulary
+from prolepsis.terms.errors import UnknownNameError
 
 _COMMON = (
     "http://www.w3.org/1999/02/22-rdf-syntax-ns#",

@@ -13,8 +13,8 @@ from rdflib import Graph, URIRef
 from rdflib.exceptions import ParserError
 from rdflib.plugins.parsers.notation3 import BadSyntax
 
-from prolepsis.errors import KnowledgeError, brief
-from prolepsis.text_files import read_text
+from prolepsis.system.text_files import read_text
+from prolepsis.terms.errors import KnowledgeError, brief
 
 # Its warnings about literals come with tracebacks; what matters of them is told where a value is read.
 logging.getLogger("rdflib").addHandler(logging.NullHandler())

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from prolepsis.units import si_symbol, to_si, unit_of
+from prolepsis.terms.units import si_symbol, to_si, unit_of
 
 CERTAINTIES = {
     "T": "seen in a text",

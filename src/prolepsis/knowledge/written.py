@@ -5,10 +5,10 @@ from __future__ import annotations
 from rdflib import BNode, Literal, URIRef
 from rdflib.term import Node
 
-from prolepsis.errors import InputError, KnowledgeError, brief
 from prolepsis.knowledge.turtle import local_name
 from prolepsis.knowledge.vocabulary import Property
-from prolepsis.units import read_quantity, to_si
+from prolepsis.terms.errors import InputError, KnowledgeError, brief
+from prolepsis.terms.units import read_quantity, to_si
 
 
 def read_value(entry: Property, node: Node | str | float, *, where: str) -> float | str:

@@ -28,9 +28,9 @@ from typing import IO, Any, cast
 
 from swiplserver import PrologError, PrologLaunchError, PrologMQI, PrologThread
 
-from prolepsis.errors import InputError, MissingToolError, Note, brief
 from prolepsis.logic.confinement import Walls, command, offered
-from prolepsis.terms import format_atom
+from prolepsis.terms.errors import InputError, MissingToolError, Note, brief
+from prolepsis.terms.terms import format_atom
 
 PROLOG_FILES = Path(__file__).parent / "prolog"
 STACK_LIMIT = 256

@@ -5,9 +5,9 @@ from __future__ import annotations
 import difflib
 import re
 
-from prolepsis.errors import GoalError, GoalLimitError, brief
+from prolepsis.log.timeline import Timeline
 from prolepsis.logic.process import STACK_LIMIT
-from prolepsis.timeline import Timeline
+from prolepsis.terms.errors import GoalError, GoalLimitError, brief
 
 PERMITTED = (
     "a query only reads the timeline and computes, with what docs/queries.md lists; it may not print, change facts, "

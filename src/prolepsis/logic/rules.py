@@ -5,9 +5,9 @@ from __future__ import annotations
 import difflib
 from pathlib import Path
 
-from prolepsis.errors import GoalLimitError, InputError, brief
 from prolepsis.logic.refusals import PERMITTED
-from prolepsis.text_files import read_text
+from prolepsis.system.text_files import read_text
+from prolepsis.terms.errors import GoalLimitError, InputError, brief
 
 LONGEST_RULES = 1_000_000
 """Longest file of chronicles [bytes]."""

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from pathlib import Path
 
-from prolepsis.terms import format_atom, format_value
-from prolepsis.timeline import Argument, Fact, Timeline
+from prolepsis.log.timeline import Argument, Fact, Timeline
+from prolepsis.terms.terms import format_atom, format_value
 
 _atom = lru_cache(maxsize=65536)(format_atom)
 

@@ -15,13 +15,13 @@ import weakref
 from functools import lru_cache
 from pathlib import Path
 
-from prolepsis.errors import GoalError, GoalLimitError, InputError, Note, brief
+from prolepsis.log.timeline import Timeline
 from prolepsis.logic.process import ProcessLost, PrologProcess
 from prolepsis.logic.refusals import refusal, shown
 from prolepsis.logic.rules import read_rules, rule_refusal
 from prolepsis.logic.run_file import write_run
-from prolepsis.terms import Value, format_atom, format_value, parse_term
-from prolepsis.timeline import Timeline
+from prolepsis.terms.errors import GoalError, GoalLimitError, InputError, Note, brief
+from prolepsis.terms.terms import Value, format_atom, format_value, parse_term
 
 GRACE = 5.0
 """Time beyond its limit after which a query that does not even stop is ended with its process [s]."""

@@ -8,14 +8,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from prolepsis.errors import PlanError, UnknownNameError, brief, brief_list
-from prolepsis.programs.commands import Behaviour
+from prolepsis.log.things import Thing
+from prolepsis.robots.commands import Behaviour
 from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.scene.scene import Scene
-from prolepsis.terms import Term, Value, Variable
-from prolepsis.text_files import is_file
-from prolepsis.things import Thing
-from prolepsis.units import to_float
+from prolepsis.system.text_files import is_file
+from prolepsis.terms.errors import PlanError, UnknownNameError, brief, brief_list
+from prolepsis.terms.terms import Term, Value, Variable
+from prolepsis.terms.units import to_float
 
 KINDS: Mapping[str, str] = {
     "hand": "name of a gripper",

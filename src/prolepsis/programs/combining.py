@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from prolepsis.programs.commands import ActionFailedError, Behaviour, Command, Sense, is_instant
+from prolepsis.robots.commands import ActionFailedError, Behaviour, Command, Sense, is_instant
 
 Maker = Callable[[Sense], Behaviour]
 """Starts an action, given what is sensed then."""

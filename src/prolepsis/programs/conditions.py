@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from prolepsis.errors import PlanError, UnknownNameError, brief
+from prolepsis.log.things import Thing
 from prolepsis.programs.action import FORCE, HAND, OBJECT, Parameter, bind, usage_of
-from prolepsis.programs.commands import Sense
+from prolepsis.robots.commands import Sense
 from prolepsis.scene.scene import Scene
-from prolepsis.terms import Term, Value
-from prolepsis.things import Thing
+from prolepsis.terms.errors import PlanError, UnknownNameError, brief
+from prolepsis.terms.terms import Term, Value
 
 Condition = Callable[[Sense], bool]
 

@@ -7,10 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.programs.commands import ActionFailedError, Arm, ArmTarget, Behaviour, HandTarget, Sense, Way
+from prolepsis.geometry.shape import FloatArray, Triple, triple
+from prolepsis.log.things import Thing
 from prolepsis.programs.profile import least_jerk, least_time
 from prolepsis.programs.turning import TICK
-from prolepsis.things import FloatArray, Thing, Triple, triple
+from prolepsis.robots.commands import ActionFailedError, Arm, ArmTarget, Behaviour, HandTarget, Sense, Way
 
 KNOTS = 40
 """Ticks between two places at which the joints of a given course are computed."""

@@ -9,11 +9,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from prolepsis.programs.commands import Arm, Sense
+from prolepsis.geometry.shape import FloatArray, Quaternion, Triple, triple
+from prolepsis.log.things import Thing
+from prolepsis.robots.commands import Arm, Sense
 from prolepsis.robots.hand import rotate
 from prolepsis.robots.turned import turned
 from prolepsis.scene.extent import extent_along, middle
-from prolepsis.things import FloatArray, Quaternion, Thing, Triple, triple
 
 STANDOFF = 0.08
 """Before the last straight stretch, the hand stops this far from the object; one that flies, from its middle [m]."""

@@ -8,15 +8,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from prolepsis.errors import PlanError
-from prolepsis.programs.commands import ActionFailedError, Behaviour, HandSense, Sense, Way, no_way
+from prolepsis.geometry.shape import Quaternion, Triple, triple
+from prolepsis.log.things import Thing
 from prolepsis.programs.following import follow, go
 from prolepsis.programs.grasping import as_seen, wrapped, yaw_of
 from prolepsis.programs.profile import PEAK_SPEED, least_jerk
 from prolepsis.programs.turning import matrix
+from prolepsis.robots.commands import ActionFailedError, Behaviour, HandSense, Sense, Way, no_way
 from prolepsis.robots.turned import inverse, product, turned
 from prolepsis.scene.extent import middle, support
-from prolepsis.things import Quaternion, Thing, Triple, triple
+from prolepsis.terms.errors import PlanError
 
 PITCHES = (20.0, 30.0, 10.0, 45.0, 0.0, 60.0)
 """Pitches of the hand that are tried when it hits or presses with what it holds [degrees]."""

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+from prolepsis.log.things import Thing
 from prolepsis.programs.action import ACTIONS
-from prolepsis.programs.commands import ActionFailedError, Begin, Behaviour, End, Note, Sense, is_instant
+from prolepsis.robots.commands import ActionFailedError, Begin, Behaviour, End, Note, Sense, is_instant
 from prolepsis.scene.scene import Scene
-from prolepsis.terms import Term, Value
-from prolepsis.things import Thing
+from prolepsis.terms.terms import Term, Value
 
 LOST_TICKS = 20
 """What was held is dropped if the pads have not felt it for so many ticks at the end of an action."""

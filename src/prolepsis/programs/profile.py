@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from prolepsis.geometry.shape import FloatArray
 from prolepsis.programs.turning import TICK
-from prolepsis.things import FloatArray
 
 PEAK_SPEED, PEAK_ACCELERATION = 1.875, 5.7735
 """Greatest speed and acceleration of the profile, over way / time and way / time^2 [1]."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from prolepsis.programs.commands import ActionFailedError, Behaviour, Command, Sense, is_instant
-from prolepsis.terms import Value
+from prolepsis.robots.commands import ActionFailedError, Behaviour, Command, Sense, is_instant
+from prolepsis.terms.terms import Value
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

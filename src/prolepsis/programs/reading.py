@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import prolepsis.programs.actions as _actions
-from prolepsis.errors import PlanError, UnknownNameError, brief, brief_list
+from prolepsis.log.things import Thing
 from prolepsis.programs.action import ACTIONS, KINDS, UNITS, bind, refuse_fixed
 from prolepsis.programs.combining import Maker, all_together, in_sequence, repeated
 from prolepsis.programs.conditions import read_condition
 from prolepsis.programs.nesting import as_event
 from prolepsis.programs.program import Program
 from prolepsis.scene.scene import Scene
-from prolepsis.terms import Term, Value, Variable, format_value
-from prolepsis.things import Thing
+from prolepsis.terms.errors import PlanError, UnknownNameError, brief, brief_list
+from prolepsis.terms.terms import Term, Value, Variable, format_value
 
 COMBINATORS = {
     "sequence": "one action after the other: sequence([A, B, ...])",

@@ -13,10 +13,10 @@ import pyarrow as arrow  # pyright: ignore[reportMissingTypeStubs]
 import pyarrow.csv as csv  # pyright: ignore[reportMissingTypeStubs]
 import pyarrow.parquet as parquet  # pyright: ignore[reportMissingTypeStubs]
 
-from prolepsis.errors import PlanError, UnknownNameError
+from prolepsis.geometry.shape import FloatArray
 from prolepsis.robots.turned import turned
-from prolepsis.text_files import read_bytes
-from prolepsis.things import FloatArray
+from prolepsis.system.text_files import read_bytes
+from prolepsis.terms.errors import PlanError, UnknownNameError
 
 LONGEST_GAP = 0.2
 """Two rows may be this far apart [s]: in a longer time a hand does what no row tells."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from prolepsis.things import FloatArray, Quaternion
+from prolepsis.geometry.shape import FloatArray, Quaternion
 
 TICK = 1.0e-3
 """Period of the commands [s]."""

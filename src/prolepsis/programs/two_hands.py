@@ -8,17 +8,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from prolepsis.errors import PlanError
+from prolepsis.geometry.shape import FloatArray, Quaternion, Triple, triple
+from prolepsis.log.things import Thing
 from prolepsis.programs.action import Parameter
-from prolepsis.programs.commands import Command, HandSense, Sense, Way, no_way
 from prolepsis.programs.following import go
 from prolepsis.programs.grasping import longest_axis, yaw_of
 from prolepsis.programs.turning import matrix
+from prolepsis.robots.commands import Command, HandSense, Sense, Way, no_way
 from prolepsis.robots.turned import quaternion_of, turn_of
 from prolepsis.scene.extent import middle
-from prolepsis.scene.robot_world import robot_of_gripper
-from prolepsis.scene.scene import Scene
-from prolepsis.things import FloatArray, Quaternion, Thing, Triple, triple
+from prolepsis.scene.scene import Scene, robot_of_gripper
+from prolepsis.terms.errors import PlanError
 
 OTHER = Parameter(name="other", kind="hand")
 """The second hand."""

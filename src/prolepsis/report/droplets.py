@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from prolepsis.log import FREE, Log
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.log.log import FREE, Log
 from prolepsis.report.liquid import Look, look_of
-from prolepsis.things import BoolArray, FloatArray, IntArray
 
 FAR = 0.6
 """Particles farther than this from the middle of their liquid do not draw the camera [m]."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from prolepsis.errors import MissingToolError, ProlepsisError
-from prolepsis.log import Log
+from prolepsis.log.log import Log
 from prolepsis.report.liquid import Picture
-from prolepsis.workers import Lost, Worker
+from prolepsis.system.workers import Lost, Worker
+from prolepsis.terms.errors import MissingToolError, ProlepsisError
 
 _drawn: Iterator[Picture] = iter(())
 """In the process that draws: its pictures."""

@@ -6,7 +6,8 @@ import itertools
 
 import numpy as np
 
-from prolepsis.things import FloatArray, Geom, Thing
+from prolepsis.geometry.shape import FloatArray, Geom
+from prolepsis.log.things import Thing
 
 LARGEST = 0.3
 """Things draw the camera no farther than this from their middle [m]: a table that moves need not be seen whole."""

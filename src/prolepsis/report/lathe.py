@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from prolepsis.things import FloatArray, Hole, Shape
+from prolepsis.geometry.shape import FloatArray, Hole, Shape
 
 SEGMENTS = 72
 """Facets round a vessel."""

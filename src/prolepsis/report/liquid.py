@@ -13,8 +13,9 @@ from typing import Any, cast
 import numpy as np
 import numpy.typing as npt
 
+from prolepsis.geometry.shape import FloatArray, IntArray
+from prolepsis.log.things import Thing
 from prolepsis.report.splatting import NOTHING, smoothed, splat
-from prolepsis.things import FloatArray, IntArray, Thing
 
 Picture = npt.NDArray[np.uint8]
 

@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.errors import MissingToolError
+from prolepsis.geometry.shape import FloatArray
 from prolepsis.report.liquid import Eye, Picture
-from prolepsis.things import FloatArray
+from prolepsis.terms.errors import MissingToolError
 
 BACKENDS = ("egl", "osmesa")
 _opened_by: int | None = None

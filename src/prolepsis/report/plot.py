@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from prolepsis.aside import written_aside
-from prolepsis.errors import InputError
-from prolepsis.things import FloatArray
+from prolepsis.geometry.shape import FloatArray
+from prolepsis.system.aside import written_aside
+from prolepsis.terms.errors import InputError
 
 SCALE = 2
 """Everything is drawn so many times larger first, for smooth lines."""

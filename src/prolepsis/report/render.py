@@ -10,11 +10,11 @@ from typing import Any, cast
 
 import numpy as np
 
-from prolepsis.aside import check_replaceable, written_aside
-from prolepsis.errors import InputError
-from prolepsis.log import Log
+from prolepsis.log.log import Log
 from prolepsis.report.liquid import Picture, painted
 from prolepsis.report.offscreen import Camera, opened_by_parent
+from prolepsis.system.aside import check_replaceable, written_aside
+from prolepsis.terms.errors import InputError
 
 FRAME_RATE = 30
 """Frames of a video a second of watching."""

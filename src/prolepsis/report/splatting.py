@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.kernels import njit
-from prolepsis.things import FloatArray
+from prolepsis.geometry.shape import FloatArray
+from prolepsis.system.kernels import njit
 
 NOTHING = 1.0e9
 """Distance of a pixel in which there is no liquid [m]."""

@@ -6,13 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.engine import mujoco
-from prolepsis.errors import InputError, brief
-from prolepsis.log import Log
+from prolepsis.geometry.shape import BoolArray, FloatArray, Geom
+from prolepsis.log.log import Log
+from prolepsis.log.things import Thing
 from prolepsis.report.droplets import Droplets, Wet
 from prolepsis.report.framing import corners
 from prolepsis.report.lathe import turned_surface
-from prolepsis.things import BoolArray, FloatArray, Geom, Thing
+from prolepsis.system.mujoco import mujoco
+from prolepsis.terms.errors import InputError, brief
 
 APPEARING = frozenset({"Piece", "Blob"})
 """Roles of what is seen only once its whole has come apart."""

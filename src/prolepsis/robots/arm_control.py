@@ -6,16 +6,17 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.engine import mujoco
-from prolepsis.programs.commands import ArmTarget, Command, HandSense, HandTarget
+from prolepsis.geometry.shape import FloatArray, Quaternion, Triple, quaternion, triple
+from prolepsis.log.things import Thing
 from prolepsis.robots.arm_way import ArmWays, name_of
+from prolepsis.robots.commands import ArmTarget, Command, HandSense, HandTarget
 from prolepsis.robots.gripper_control import Drive, GripperControl
 from prolepsis.robots.inverse import ArmKinematics
 from prolepsis.robots.model import robot_model
-from prolepsis.robots.robot import Robot
-from prolepsis.robots.turned import turn_of, turned
-from prolepsis.state import State, compose_pose, relative_pose
-from prolepsis.things import FloatArray, Quaternion, Thing, Triple, quaternion, triple
+from prolepsis.robots.turned import compose_pose, relative_pose, turn_of, turned
+from prolepsis.scene.robot import Robot
+from prolepsis.scene.running import Running
+from prolepsis.system.mujoco import mujoco
 
 PERIOD = 4
 """Ticks between two solutions of the inverse kinematics; in between the joints go on evenly."""
@@ -34,7 +35,7 @@ GRIPPER_STIFFNESS, GRIPPER_DAMPING = 4.0e3, 80.0
 class ArmHand:
     """The controller of one arm and its gripper in a running simulation."""
 
-    def __init__(self, state: State, thing: Thing, robot: Robot, robot_name: str, reference: Quaternion) -> None:
+    def __init__(self, state: Running, thing: Thing, robot: Robot, robot_name: str, reference: Quaternion) -> None:
         """Take over the arm whose gripper ``thing`` is; ``reference`` is level and faces where the robot faces."""
         self.name = thing.name
         self._arm = robot.arm(thing.name)
@@ -74,7 +75,7 @@ class ArmHand:
         self._stiffness = float(1.0 / np.linalg.eigvalsh(self._compliance())[-1])
         self.bind(state)
 
-    def bind(self, state: State) -> None:
+    def bind(self, state: Running) -> None:
         """Look the arm up in a model that is new."""
         if self._version == state.version:
             return
@@ -130,7 +131,7 @@ class ArmHand:
         else:
             self.gripper.accept(command)
 
-    def act(self, state: State, dt: float) -> None:
+    def act(self, state: Running, dt: float) -> None:
         """Set the motors for the coming tick of ``dt`` [s]."""
         self.bind(state)
         if self._target is not None:

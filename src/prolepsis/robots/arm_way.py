@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.engine import mujoco
-from prolepsis.programs.commands import Way
+from prolepsis.geometry.shape import FloatArray, IntArray, Quaternion, Triple
+from prolepsis.robots.commands import Way
 from prolepsis.robots.gap import Gap
 from prolepsis.robots.inverse import ArmKinematics, Found
-from prolepsis.robots.robot import Arm
-from prolepsis.robots.turned import conjugated, inverse, turn_of, turned
-from prolepsis.state import State, compose_pose, relative_pose
-from prolepsis.things import FloatArray, IntArray, Quaternion, Triple
+from prolepsis.robots.turned import compose_pose, conjugated, inverse, relative_pose, turn_of, turned
+from prolepsis.scene.robot import Arm
+from prolepsis.scene.running import Running
+from prolepsis.system.mujoco import mujoco
 
 FINEST = 0.03
 """Two postures that are looked at for collisions differ by at most this much in each joint [rad]."""
@@ -45,11 +45,11 @@ class ArmWays:
         self._reference = reference
         self._mount_name, self._palm = mount, palm
         self._starts = _starts(kinematics)
-        self._state: State | None = None
+        self._state: Running | None = None
         self._scratch: Any = None
         self._held: tuple[int, int, int, FloatArray] | None = None
 
-    def bind(self, state: State, places: IntArray, links: Collection[int], fingers: Collection[int]) -> None:
+    def bind(self, state: Running, places: IntArray, links: Collection[int], fingers: Collection[int]) -> None:
         """Look at a model that is new: ``places`` of the joints in qpos, bodies up to the palm, and those on it."""
         self._state = state
         self._places = places
@@ -132,7 +132,7 @@ class ArmWays:
         self._held = None
         assert self._state is not None
         state = self._state
-        if name is None or state.carrier[state.world.scene.index(name)] != state.world.scene.index(name):
+        if name is None or state.carrier[state.scene.index(name)] != state.scene.index(name):
             return
         palm = state.model.body(self._palm).id
         hand = np.array([*state.data.xpos[palm], *state.data.xquat[palm]])
@@ -207,12 +207,12 @@ class ArmWays:
         return relative_pose(self._mount_pose(), np.array([*place, *turned(self._reference, (yaw, pitch, roll))]))
 
 
-def name_of(state: State, body: int) -> str:
+def name_of(state: Running, body: int) -> str:
     """Return what a plan would call a body: of a robot's links, the gripper or the robot that they are parts of."""
     number = int(state.body_thing[body])
     if number < 0:
         return str(state.model.body(body).name)
-    thing = state.world.scene.things[number]
+    thing = state.scene.things[number]
     return thing.whole if thing.kind == "Part" and thing.whole is not None else thing.name
 
 

@@ -6,13 +6,13 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TypeVar
 
-from prolepsis.programs.commands import Command, HandSense, JointTarget, RobotSense
 from prolepsis.robots.arm_control import ArmHand
+from prolepsis.robots.commands import Command, HandSense, JointTarget, RobotSense
 from prolepsis.robots.flying_control import FlyingHand
 from prolepsis.robots.hand import HAND
 from prolepsis.robots.trunk_control import Trunk
-from prolepsis.scene.robot_world import reference_of, robot_of_gripper
-from prolepsis.state import State
+from prolepsis.scene.running import Running
+from prolepsis.scene.scene import reference_of, robot_of_gripper
 
 S = TypeVar("S")
 
@@ -50,9 +50,9 @@ class Controls:
     """By the robot's name."""
 
     @classmethod
-    def of(cls, state: State) -> Controls:
+    def of(cls, state: Running) -> Controls:
         """Return the controllers of all that can be controlled in a scene."""
-        scene = state.world.scene
+        scene = state.scene
         hands: dict[str, FlyingHand | ArmHand] = {}
         for thing in scene.things:
             if "Gripper" not in thing.roles:
@@ -74,19 +74,19 @@ class Controls:
         if hand is not None:
             self.hands[hand].accept(command)
 
-    def act(self, state: State, dt: float) -> None:
+    def act(self, state: Running, dt: float) -> None:
         """Set all motors for the coming tick of ``dt`` [s]."""
         for trunk in self.trunks.values():
             trunk.act(state)
         for hand in self.hands.values():
             hand.act(state, dt)
 
-    def bind(self, state: State) -> None:
+    def bind(self, state: Running) -> None:
         """Look everything up in a model that is new."""
         for each in self._all():
             each.bind(state)
 
-    def measure(self, state: State) -> None:
+    def measure(self, state: Running) -> None:
         """Read the forces of the last substep."""
         if self.hands:
             forces = state.normal_forces()

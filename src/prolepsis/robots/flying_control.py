@@ -6,20 +6,21 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.engine import mujoco
-from prolepsis.programs.commands import HandSense, HandTarget
+from prolepsis.geometry.shape import Triple
+from prolepsis.log.things import Thing
+from prolepsis.robots.commands import HandSense, HandTarget
 from prolepsis.robots.gap import Gap
 from prolepsis.robots.gripper_control import Drive, GripperControl
 from prolepsis.robots.hand import Hand
 from prolepsis.robots.turned import turned
-from prolepsis.state import State
-from prolepsis.things import Thing, Triple
+from prolepsis.scene.running import Running
+from prolepsis.system.mujoco import mujoco
 
 
 class FlyingHand:
     """The controller of one free hand in a running simulation."""
 
-    def __init__(self, state: State, thing: Thing, hand: Hand) -> None:
+    def __init__(self, state: Running, thing: Thing, hand: Hand) -> None:
         """Take over the hand that ``thing`` is."""
         self.name = thing.name
         self._first = thing.orientation
@@ -39,7 +40,7 @@ class FlyingHand:
         self.gripper = GripperControl(state, drive)
         self.bind(state)
 
-    def bind(self, state: State) -> None:
+    def bind(self, state: Running) -> None:
         """Look the hand up in a model that is new."""
         if self._version == state.version:
             return
@@ -58,7 +59,7 @@ class FlyingHand:
         else:
             self.gripper.accept(command)  # type: ignore[arg-type]
 
-    def act(self, state: State, dt: float) -> None:
+    def act(self, state: Running, dt: float) -> None:
         """Set the motors for the coming tick of ``dt`` [s]."""
         self.bind(state)
         target = self._target
@@ -68,7 +69,7 @@ class FlyingHand:
         self.gripper.act(dt)
 
     def measure(self, forces: list[tuple[int, int, int, float]]) -> None:
-        """Read the pressure of the pads from the normal forces of the last substep, as ``State`` gives them."""
+        """Read the pressure of the pads from the normal forces of the last substep, as ``Running`` gives them."""
         self.gripper.measure(forces)
 
     def sense(self) -> HandSense:

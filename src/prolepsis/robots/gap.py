@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from prolepsis.things import FloatArray
+from prolepsis.geometry.shape import FloatArray
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)

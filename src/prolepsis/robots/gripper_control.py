@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from prolepsis.programs.commands import CloseGripper, Command, OpenGripper
+from prolepsis.robots.commands import CloseGripper, Command, OpenGripper
 from prolepsis.robots.gap import Gap
-from prolepsis.state import State
+from prolepsis.scene.running import Running
 
 TOUCH_FORCE = 0.6
 """Greatest motor force before contact [N]: too weak to push away what is touched first."""
@@ -54,7 +54,7 @@ class Drive:
 class GripperControl:
     """The controller of one gripper in a running simulation."""
 
-    def __init__(self, state: State, drive: Drive) -> None:
+    def __init__(self, state: Running, drive: Drive) -> None:
         """Take over a gripper as it is."""
         self.motion = 0
         """1 opening, -1 closing, 0 idle."""
@@ -74,7 +74,7 @@ class GripperControl:
         self.bind(state)
         self._width = self.opening
 
-    def bind(self, state: State) -> None:
+    def bind(self, state: Running) -> None:
         """Look the gripper up in a model that is new."""
         if self._version == state.version:
             return
@@ -172,7 +172,7 @@ class GripperControl:
         self._data.ctrl[self._motor] = self._drive.stiffness * lever * missing + stiffness * length
 
     def measure(self, forces: list[tuple[int, int, int, float]]) -> None:
-        """Read the pressure of the pads from the normal forces of the last substep, as ``State`` gives them."""
+        """Read the pressure of the pads from the normal forces of the last substep, as ``Running`` gives them."""
         pads = dict.fromkeys(self._pads, 0.0)
         for _, first, second, force in forces:
             for body in (first, second):

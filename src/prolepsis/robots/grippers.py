@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.engine import mujoco
-from prolepsis.errors import ScenarioError, UnknownNameError
-from prolepsis.own_robot import OwnGripper
+from prolepsis.geometry.shape import Quaternion
 from prolepsis.robots.model import FARTHEST, follow_couplings, gap_of, touching_geoms
-from prolepsis.robots.robot import ParallelGripper
-from prolepsis.things import Quaternion
+from prolepsis.scenario.own_robot import OwnGripper
+from prolepsis.scene.robot import ParallelGripper
+from prolepsis.system.mujoco import mujoco
+from prolepsis.terms.errors import ScenarioError, UnknownNameError
 
 ALIKE = 1.0e-3
 """Ranges of two fingers may differ by this share."""

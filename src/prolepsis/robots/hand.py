@@ -12,8 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.engine import mujoco
-from prolepsis.things import FloatArray, Geom, Quaternion, Shape, Thing, Triple
+from prolepsis.geometry.shape import FloatArray, Geom, Quaternion, Shape, Triple
+from prolepsis.log.things import Thing
+from prolepsis.system.mujoco import mujoco
 
 PARTS = ("palm", "left_finger", "right_finger")
 """Parts of a free hand: the palm flies, the fingers slide in it."""

@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.engine import mujoco
+from prolepsis.geometry.shape import FloatArray
 from prolepsis.robots.model import robot_model
-from prolepsis.robots.robot import Arm, Robot
-from prolepsis.things import FloatArray
+from prolepsis.scene.robot import Arm, Robot
+from prolepsis.system.mujoco import mujoco
 
 SITE = "prolepsis_tool"
 """Name of the gripper's frame in the arm's model."""

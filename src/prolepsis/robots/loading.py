@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.engine import mujoco
-from prolepsis.errors import ScenarioError, UnknownNameError
-from prolepsis.own_robot import OwnGripper, OwnRobot
+from prolepsis.geometry.shape import FloatArray
 from prolepsis.robots.grippers import gripper_of, make_fingers_open, pads_of
 from prolepsis.robots.model import follow_couplings
 from prolepsis.robots.model_file import ModelFile, read_model_file
-from prolepsis.robots.robot import Arm, Joint, ParallelGripper, Robot
-from prolepsis.things import FloatArray
+from prolepsis.scenario.own_robot import OwnGripper, OwnRobot
+from prolepsis.scene.robot import Arm, Joint, ParallelGripper, Robot
+from prolepsis.system.mujoco import mujoco
+from prolepsis.terms.errors import ScenarioError, UnknownNameError
 
 FREQUENCY = 10.0
 """Natural frequency of a servo that carries the payload [Hz], critically damped: slower than the contact of what is

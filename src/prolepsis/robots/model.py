@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.engine import mujoco
-from prolepsis.errors import ScenarioError
+from prolepsis.geometry.shape import FloatArray
 from prolepsis.robots.gap import Gap
 from prolepsis.robots.hand import rotate
-from prolepsis.robots.robot import ParallelGripper, Robot
-from prolepsis.things import FloatArray
+from prolepsis.scene.robot import ParallelGripper, Robot
+from prolepsis.system.mujoco import mujoco
+from prolepsis.terms.errors import ScenarioError
 
 TABLE = 257
 """Lengths at which a gripper's gap is measured: it is interpolated to a micrometre."""

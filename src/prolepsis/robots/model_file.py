@@ -12,11 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.engine import mujoco
-from prolepsis.errors import ScenarioError
 from prolepsis.robots.model_text import inside, read_model_tree, short, speed_limit
 from prolepsis.robots.trial import try_robot
-from prolepsis.text_files import is_file
+from prolepsis.system.mujoco import mujoco
+from prolepsis.system.text_files import is_file
+from prolepsis.terms.errors import ScenarioError
 
 ROOT = "mount"
 """Body that is added if none carries all others."""

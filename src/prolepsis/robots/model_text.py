@@ -12,8 +12,8 @@ from pathlib import Path
 from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers import expat
 
-from prolepsis.errors import ScenarioError
-from prolepsis.text_files import read_bytes
+from prolepsis.system.text_files import read_bytes
+from prolepsis.terms.errors import ScenarioError
 
 MOST_BYTES = 16 * 2**20
 """Longest robot file, what it includes counted too [byte]."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from prolepsis.robots.robot import Arm, Joint, ParallelGripper, Robot
+from prolepsis.scene.robot import Arm, Joint, ParallelGripper, Robot
 
 _ARM = (
     # name, speed [rad/s], acceleration [rad/s^2], stiffness [N m/rad], damping [N m s/rad], home of the left arm [rad]

@@ -17,8 +17,8 @@ from collections.abc import Iterable
 from importlib.metadata import version
 from pathlib import Path
 
-from prolepsis.cache import cache_root, keep, read_kept
-from prolepsis.errors import InputError, ScenarioError
+from prolepsis.system.cache import cache_root, keep, read_kept
+from prolepsis.terms.errors import InputError, ScenarioError
 
 MEMORY = 4 * 2**30
 """Address space of the process [byte]: MuJoCo itself takes half a gigabyte of it."""

@@ -6,16 +6,16 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.programs.commands import Command, JointTarget, RobotSense
+from prolepsis.robots.commands import Command, JointTarget, RobotSense
 from prolepsis.robots.model import robot_model
-from prolepsis.robots.robot import Robot
-from prolepsis.state import State
+from prolepsis.scene.robot import Robot
+from prolepsis.scene.running import Running
 
 
 class Trunk:
     """The controller of one robot's base, torso and head in a running simulation."""
 
-    def __init__(self, state: State, name: str, robot: Robot) -> None:
+    def __init__(self, state: Running, name: str, robot: Robot) -> None:
         """Take over the robot called ``name``."""
         self.name = name
         joints = (*robot.base, *robot.torso, *robot.head)
@@ -29,7 +29,7 @@ class Trunk:
         self._version = -1
         self.bind(state)
 
-    def bind(self, state: State) -> None:
+    def bind(self, state: Running) -> None:
         """Look the robot up in a model that is new."""
         if self._version == state.version:
             return
@@ -55,7 +55,7 @@ class Trunk:
             self._fresh = True
             self._targets |= {name: (command.joints[name], command.speeds[name]) for name in command.joints}
 
-    def act(self, state: State) -> None:
+    def act(self, state: Running) -> None:
         """Set the motors for the coming tick."""
         self.bind(state)
         if self._fresh and len(self._servos):

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from prolepsis.engine import mujoco
-from prolepsis.things import FloatArray, Quaternion, Triple
+from prolepsis.geometry.shape import FloatArray, Quaternion, Triple
+from prolepsis.system.mujoco import mujoco
 
 
 def product(first: Quaternion, second: Quaternion) -> Quaternion:
@@ -64,3 +64,17 @@ def conjugated(orientation: Quaternion, vector: Triple) -> Triple:
     w, x, y, z = product(product(orientation, (0.0, *vector)), inverse(orientation))
     del w
     return (x, y, z)
+
+
+def compose_pose(outer: FloatArray, inner: FloatArray) -> FloatArray:
+    """Return the world pose of ``inner``, given in the frame ``outer``; both are (7,)."""
+    result = np.zeros(7)
+    mujoco.mju_mulPose(result[:3], result[3:], outer[:3], outer[3:], inner[:3], inner[3:])
+    return result
+
+
+def relative_pose(outer: FloatArray, inner: FloatArray) -> FloatArray:
+    """Return the pose of ``inner`` in the frame of ``outer``; both are world poses, (7,)."""
+    back = np.zeros(7)
+    mujoco.mju_negPose(back[:3], back[3:], outer[:3], outer[3:])
+    return compose_pose(back, inner)

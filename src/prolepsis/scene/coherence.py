@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from prolepsis.errors import KnowledgeError, brief_list
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
-from prolepsis.scene.liquids import is_liquid
+from prolepsis.matter.liquids.liquids import is_liquid
+from prolepsis.terms.errors import KnowledgeError, brief_list
 
 HOLDING = {"contains": "be in", "absorbs": "be soaked up by"}
 """Relations from what holds to what is held, and how that is said of what is held."""

@@ -8,27 +8,27 @@ from pathlib import Path
 
 import numpy as np
 
-from prolepsis.engine import mujoco
-from prolepsis.errors import KnowledgeError, brief_list
+from prolepsis.geometry.shape import Quaternion, Shape
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.knowledge.situation import MOST_INDIVIDUALS
+from prolepsis.log.things import Thing
+from prolepsis.matter.liquids.liquids import is_liquid, liquid_thing, place_of, refuse_idle
+from prolepsis.matter.shells.egg_inside import egg_pools
+from prolepsis.matter.shells.shelled import shelled_things
+from prolepsis.matter.walls.yielding_bowl import bowl_things
 from prolepsis.robots.hand import HAND
-from prolepsis.robots.robot import Robot
-from prolepsis.scenario_file import DEFAULT_PARTICLES
+from prolepsis.scenario.file import DEFAULT_PARTICLES
 from prolepsis.scene.coherence import refuse_nonsense
-from prolepsis.scene.egg_inside import egg_pools
-from prolepsis.scene.liquids import is_liquid, liquid_thing, place_of, refuse_idle
 from prolepsis.scene.placing import resting_height
+from prolepsis.scene.robot import Robot
 from prolepsis.scene.robots import robot_of, robot_things
-from prolepsis.scene.scene import Pool, Scene
-from prolepsis.scene.shelled import shelled_things
-from prolepsis.scene.world import HIDDEN_ROLES
-from prolepsis.scene.yielding_bowl import bowl_things
-from prolepsis.shapes import SHAPES
-from prolepsis.shapes.holes import refuse_holes
-from prolepsis.shapes.mesh import mesh
-from prolepsis.things import Quaternion, Shape, Thing
-from prolepsis.threads import one_thread
+from prolepsis.scene.scene import HIDDEN_ROLES, Pool, Scene
+from prolepsis.scene.shapes import SHAPES
+from prolepsis.scene.shapes.holes import refuse_holes
+from prolepsis.scene.shapes.mesh import mesh
+from prolepsis.system.mujoco import mujoco
+from prolepsis.system.threads import one_thread
+from prolepsis.terms.errors import KnowledgeError, brief_list
 
 ROLES = (
     "Gripper",
@@ -106,7 +106,7 @@ def compose(kb: KnowledgeBase, *, particles: int = DEFAULT_PARTICLES, robot: Rob
     pools: tuple[Pool, ...] = ()
     if liquids:
         # The import takes longer than a scene without liquids.
-        from prolepsis.scene.filling import fill
+        from prolepsis.matter.liquids.filling import fill
 
         flowing = [liquid_thing(kb, name, _roles(kb, name)) for name in liquids]
         solids = {name: tuple(t for t in made[name] if not t.roles & HIDDEN_ROLES) for name in wholes}

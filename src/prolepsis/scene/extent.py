@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from prolepsis.engine import mujoco
-from prolepsis.things import FloatArray, Geom, Quaternion, Thing
+from prolepsis.geometry.shape import FloatArray, Geom, Quaternion
+from prolepsis.log.things import Thing
+from prolepsis.system.mujoco import mujoco
 
 
 def support(thing: Thing, direction: FloatArray) -> float:

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from prolepsis.fields.signed_distance import Field, field_of
-from prolepsis.fields.solids import bounded, matrix
-from prolepsis.things import FloatArray, Thing
+from prolepsis.geometry.shape import FloatArray
+from prolepsis.geometry.signed_distance import Field, field_of
+from prolepsis.geometry.solids import bounded, matrix
+from prolepsis.log.things import Thing
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)

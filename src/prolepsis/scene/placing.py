@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.engine import mujoco
-from prolepsis.errors import KnowledgeError
+from prolepsis.log.things import Thing
 from prolepsis.scene.extent import support
-from prolepsis.things import Thing
+from prolepsis.system.mujoco import mujoco
+from prolepsis.terms.errors import KnowledgeError
 
 TOUCHING = 1.0e-6
 """Gap that is left [m]: no impact to speak of, and no overlap."""

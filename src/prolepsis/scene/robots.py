@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from prolepsis.errors import KnowledgeError, ScenarioError, UnknownNameError
+from prolepsis.geometry.shape import Quaternion, Triple, quaternion, triple
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
+from prolepsis.log.things import Thing
 from prolepsis.robots.hand import rotate
 from prolepsis.robots.model import robot_model
 from prolepsis.robots.pr2 import PR2
-from prolepsis.robots.robot import Robot
 from prolepsis.robots.turned import product
-from prolepsis.shapes.from_model import shape_of
-from prolepsis.things import Quaternion, Thing, Triple, quaternion, triple
+from prolepsis.scene.robot import Robot
+from prolepsis.scene.shapes.from_model import shape_of
+from prolepsis.terms.errors import KnowledgeError, ScenarioError, UnknownNameError
 
 KNOWN = {PR2.kind: PR2}
 """Robots that are here, by class."""

@@ -6,10 +6,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from prolepsis.domain import Domain
-from prolepsis.errors import UnknownNameError
-from prolepsis.robots.robot import Robot
-from prolepsis.things import FloatArray, Thing, Triple
+from prolepsis.geometry.shape import FloatArray, Quaternion, Triple
+from prolepsis.log.domain import Domain
+from prolepsis.log.things import Thing
+from prolepsis.scene.robot import Robot
+from prolepsis.terms.errors import UnknownNameError
+
+HIDDEN_ROLES = frozenset({"Piece", "Blob"})
+"""Things that are bodies of their own only after their whole has broken."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -68,3 +72,16 @@ class Scene:
             if subject == individual and name == prop and not isinstance(value, str):
                 return float(value)
         return None
+
+
+def robot_of_gripper(scene: Scene, gripper: Thing) -> str | None:
+    """Return the robot that a gripper is on, or None if it flies."""
+    links = scene.parts(gripper.name)
+    owner = links[0].name.split("/", 1)[0] if links else gripper.name
+    return owner if owner in scene.robots else None
+
+
+def reference_of(scene: Scene, gripper: Thing) -> Quaternion:
+    """Return the orientation from which a gripper's turns count: its robot's at the start, or its own if it flies."""
+    robot = robot_of_gripper(scene, gripper)
+    return gripper.orientation if robot is None else scene.thing(robot).orientation

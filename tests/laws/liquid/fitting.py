@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from scipy import optimize  # pyright: ignore[reportMissingTypeStubs]
 
-from prolepsis.things import FloatArray
+from prolepsis.geometry.shape import FloatArray
 
 
 def damped_wave(times: Sequence[float], values: Sequence[float], frequency: float) -> tuple[float, float]:

@@ -7,12 +7,12 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from prolepsis.fields.signed_distance import solids_as_arrays, union_of
-from prolepsis.liquid.particles import ParticleState
-from prolepsis.liquid.solver import COURANT, Liquid
-from prolepsis.liquid.walls import Bodies
-from prolepsis.log import FREE, PARKED
-from prolepsis.things import BoolArray, FloatArray, Geom, Shape, Triple
+from prolepsis.geometry.shape import BoolArray, FloatArray, Geom, Shape, Triple
+from prolepsis.geometry.signed_distance import solids_as_arrays, union_of
+from prolepsis.log.log import FREE, PARKED
+from prolepsis.matter.liquids.solver import COURANT, Liquid
+from prolepsis.matter.liquids.walls import Bodies
+from prolepsis.scene.particles import ParticleState
 
 GRAVITY = 9.81
 """[m/s^2]"""

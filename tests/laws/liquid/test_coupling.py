@@ -10,14 +10,15 @@ import pytest
 from tests.laws.liquid.tank import GRAVITY, cup, filled_cup
 from tests.scenes import scene
 
-from prolepsis.errors import InvalidSimulationError
-from prolepsis.log import Log
+from prolepsis.engine.simulation import simulate
+from prolepsis.engine.world import compile_world
+from prolepsis.geometry.shape import Geom, Shape
+from prolepsis.log.log import Log
+from prolepsis.log.things import Thing
 from prolepsis.programs import read_program
-from prolepsis.scene import compile_world
 from prolepsis.scene.scene import Pool
-from prolepsis.simulation import simulate
-from prolepsis.terms import parse_term
-from prolepsis.things import Geom, Shape, Thing
+from prolepsis.terms.errors import InvalidSimulationError
+from prolepsis.terms.terms import parse_term
 
 JAR, DEPTH = 0.032, 0.08
 """Inner radius of a jar that stands fast, and depth of the honey [m]."""

@@ -9,7 +9,7 @@ import pytest
 from tests.laws.liquid.fitting import damped_wave, slope_of
 from tests.laws.liquid.tank import DOWN, GRAVITY, Pose, Tank, cup, filled_cup, lattice, still, trough, turned
 
-from prolepsis.things import FloatArray
+from prolepsis.geometry.shape import FloatArray
 
 WALL = 0.003
 """Thickness of walls [m]."""

@@ -9,8 +9,8 @@ import pytest
 from tests.laws.liquid.tank import DOWN, NONE, Tank, cup, filled_cup, lattice, still, turned
 from tests.scenes import run
 
-from prolepsis.liquid.solver import COURANT
-from prolepsis.things import FloatArray
+from prolepsis.geometry.shape import FloatArray
+from prolepsis.matter.liquids.solver import COURANT
 
 RADIUS, DEPTH, WALL = 0.035, 0.06, 0.005
 """The cup of these tests [m]."""

@@ -10,7 +10,7 @@ from scipy import special  # pyright: ignore[reportMissingTypeStubs]
 from tests.laws.liquid.fitting import slope_of
 from tests.laws.liquid.tank import GRAVITY, GROUND, NONE, Tank, cup, filled_cup, lattice, still
 
-from prolepsis.things import FloatArray
+from prolepsis.geometry.shape import FloatArray
 
 RADIUS, DEPTH, WALL = 0.035, 0.06, 0.003
 """The cup in which the swirl is [m]."""

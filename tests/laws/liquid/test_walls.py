@@ -10,8 +10,8 @@ import pytest
 from tests.laws.liquid.tank import GRAVITY, Motion, Pose, Tank, cup, filled_cup, turned
 from tests.scenes import run
 
-from prolepsis.log import PARKED
-from prolepsis.things import FloatArray
+from prolepsis.geometry.shape import FloatArray
+from prolepsis.log.log import PARKED
 
 RADIUS, HEIGHT, WALL, DEPTH, SPACING = 0.035, 0.09, 0.003, 0.05, 0.005
 """A lidded cup, a little more than half full of 1540 particles [m]."""

@@ -12,12 +12,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from prolepsis.fields.cavity import BLOCKED, LEAST_DEPTH
-from prolepsis.fields.faces import Solids
 from prolepsis.fluents.kernels.distances import node_distances
 from prolepsis.fluents.kernels.pools import standing
 from prolepsis.fluents.kernels.spreading import spread
-from prolepsis.things import BoolArray, FloatArray, IntArray
+from prolepsis.geometry.cavity import BLOCKED, LEAST_DEPTH
+from prolepsis.geometry.faces import Solids
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 
 NODE_COUNT = 80_000
 """Nodes of a grid: 2 mm apart for a cup of 10 cm."""

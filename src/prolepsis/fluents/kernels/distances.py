@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from prolepsis.fields.faces import ELLIPSOID, GRID, HULL, MOST_FACES, PROFILE, Solids, faces_of
-from prolepsis.kernels import njit
-from prolepsis.things import FloatArray, IntArray
+from prolepsis.geometry.faces import ELLIPSOID, GRID, HULL, MOST_FACES, PROFILE, Solids, faces_of
+from prolepsis.geometry.shape import FloatArray, IntArray
+from prolepsis.system.kernels import njit
 
 SIDE = 6
 """Nodes along the edge of a block."""

@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from prolepsis.fields.faces import Solids
-from prolepsis.fields.signed_distance import solids_as_arrays, union_of
 from prolepsis.fluents.shapes_in_time import Part
+from prolepsis.geometry.faces import Solids
+from prolepsis.geometry.signed_distance import solids_as_arrays, union_of
 
 
 def assembled(parts: Sequence[Part], *, plugged: bool = False) -> Solids:

@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from prolepsis.fluents.kernels.places import ON, Bits, Labels, Positions
-from prolepsis.kernels import njit
-from prolepsis.things import BoolArray, FloatArray, IntArray
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.system.kernels import njit
 
 
 @njit(cache=True)

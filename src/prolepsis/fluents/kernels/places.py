@@ -7,9 +7,9 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from prolepsis.fields.faces import MOST_FACES, Solids, faces_of
-from prolepsis.kernels import njit
-from prolepsis.things import BoolArray, FloatArray, IntArray
+from prolepsis.geometry.faces import MOST_FACES, Solids, faces_of
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.system.kernels import njit
 
 Positions = npt.NDArray[np.float32]
 Bits = npt.NDArray[np.uint8]

@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from prolepsis.kernels import njit
-from prolepsis.things import BoolArray, FloatArray, IntArray
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.system.kernels import njit
 
 BLOCKED, DRAINED, OPEN, SEEN = 0, 1, 2, 3
 """What is known of a node: no way uses it, a way leads down from it, none is known yet, or it is in a pool."""

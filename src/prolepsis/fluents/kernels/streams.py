@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from prolepsis.kernels import njit
-from prolepsis.things import BoolArray, IntArray
+from prolepsis.geometry.shape import BoolArray, IntArray
+from prolepsis.system.kernels import njit
 
 
 @njit(cache=True)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from prolepsis.log.things import Thing
 from prolepsis.programs.action import FORCE, HAND, HELD, Parameter, action
 from prolepsis.programs.actions.motion import HEIGHT, SHORT, open_to, stay, within_workspace
-from prolepsis.programs.commands import Behaviour, CloseGripper, Sense
 from prolepsis.programs.grasping import CLEARANCE, grip_as_turned
 from prolepsis.programs.nesting import nested
+from prolepsis.robots.commands import Behaviour, CloseGripper, Sense
 from prolepsis.scene.scene import Scene
-from prolepsis.things import Thing
 
 SLOWEST, FASTEST = 0.002, 0.006
 """Guarded closing speeds of a finger [m/s]: touching down at v sqrt(k m) adds 0.3 to 0.8 N."""

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from prolepsis.errors import PlanError
+from prolepsis.geometry.shape import FloatArray, Quaternion, Triple, triple
+from prolepsis.log.things import Thing
 from prolepsis.programs.action import HAND, Parameter, action
-from prolepsis.programs.commands import ActionFailedError, Behaviour, HandTarget, OpenGripper, Sense, Way
 from prolepsis.programs.following import follow, go
 from prolepsis.programs.grasping import (
     LEAST_MARGIN,
@@ -21,11 +21,11 @@ from prolepsis.programs.grasping import (
     least_width,
 )
 from prolepsis.programs.profile import PEAK_ACCELERATION, PEAK_SPEED, least_jerk
+from prolepsis.robots.commands import ActionFailedError, Behaviour, HandTarget, OpenGripper, Sense, Way
 from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.scene.extent import extent_along
-from prolepsis.scene.robot_world import reference_of, robot_of_gripper
-from prolepsis.scene.scene import Scene
-from prolepsis.things import FloatArray, Quaternion, Thing, Triple, triple
+from prolepsis.scene.scene import Scene, reference_of, robot_of_gripper
+from prolepsis.terms.errors import PlanError
 
 ARRIVED = 1.0e-4
 """Shorter ways are not worth a move [m]."""

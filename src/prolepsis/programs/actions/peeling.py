@@ -8,19 +8,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from prolepsis.errors import PlanError
+from prolepsis.geometry.shape import FloatArray, Quaternion, triple
+from prolepsis.log.things import Thing
 from prolepsis.programs.action import FORCE, HAND, HELD, Parameter, action
 from prolepsis.programs.actions.gripping import close_from
 from prolepsis.programs.actions.motion import open_to, stay, travel
-from prolepsis.programs.commands import Behaviour, HandTarget, Note, Sense, Way, no_way
 from prolepsis.programs.following import go
 from prolepsis.programs.grasping import CLEARANCE
 from prolepsis.programs.holding import holding
 from prolepsis.programs.two_hands import OTHER, Hold, Placed, check_two_arms, hold_out
+from prolepsis.robots.commands import Behaviour, HandTarget, Note, Sense, Way, no_way
 from prolepsis.scene.extent import extent_along
-from prolepsis.scene.robot_world import reference_of
-from prolepsis.scene.scene import Scene
-from prolepsis.things import FloatArray, Quaternion, Thing, triple
+from prolepsis.scene.scene import Scene, reference_of
+from prolepsis.terms.errors import PlanError
 
 GONE = 0.008
 """A piece is off when it is farther from the kernel than in the whole shell by this much [m]."""

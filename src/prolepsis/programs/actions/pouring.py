@@ -7,23 +7,23 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from prolepsis.errors import PlanError
+from prolepsis.geometry.shape import FloatArray, Quaternion
+from prolepsis.log.things import Thing
 from prolepsis.programs.action import HAND, Parameter, action
 from prolepsis.programs.actions.motion import stay, travel_over
 from prolepsis.programs.actions.turning import RATE
-from prolepsis.programs.commands import Behaviour, Sense
 from prolepsis.programs.following import follow
 from prolepsis.programs.lip import Below, heights, lip_of
 from prolepsis.programs.nesting import as_event
 from prolepsis.programs.outline import outline
 from prolepsis.programs.turning import course, matrix, rolled
+from prolepsis.robots.commands import Behaviour, Sense
 from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.robots.hand import rotate
 from prolepsis.robots.turned import inverse, product, turn_of, turned
-from prolepsis.scene.robot_world import reference_of, robot_of_gripper
-from prolepsis.scene.scene import Scene
-from prolepsis.terms import Term
-from prolepsis.things import FloatArray, Quaternion, Thing
+from prolepsis.scene.scene import Scene, reference_of, robot_of_gripper
+from prolepsis.terms.errors import PlanError
+from prolepsis.terms.terms import Term
 
 LEVEL = 0.05
 """The hand's forward and left axes may rise by this much and still count as level [1]."""

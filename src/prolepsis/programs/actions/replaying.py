@@ -8,12 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.engine import mujoco
-from prolepsis.errors import PlanError
+from prolepsis.geometry.shape import FloatArray, Quaternion, triple
+from prolepsis.log.things import Thing
 from prolepsis.programs.action import HAND, Parameter, action
 from prolepsis.programs.actions.gripping import FASTEST, SLOWEST, SPEED_PER_FORCE
 from prolepsis.programs.actions.motion import ARRIVED, OPENING_SPEED
-from prolepsis.programs.commands import (
+from prolepsis.programs.profile import PEAK_SPEED, least_jerk, least_time
+from prolepsis.programs.recording import Recording, read_recording
+from prolepsis.programs.turning import TICK
+from prolepsis.robots.commands import (
     ActionFailedError,
     ArmTarget,
     Behaviour,
@@ -25,16 +28,13 @@ from prolepsis.programs.commands import (
     OpenGripper,
     Sense,
 )
-from prolepsis.programs.profile import PEAK_SPEED, least_jerk, least_time
-from prolepsis.programs.recording import Recording, read_recording
-from prolepsis.programs.turning import TICK
 from prolepsis.robots.hand import HAND as FREE_HAND
 from prolepsis.robots.model import robot_model
-from prolepsis.robots.robot import Joint
 from prolepsis.robots.turned import turn_of
-from prolepsis.scene.robot_world import reference_of, robot_of_gripper
-from prolepsis.scene.scene import Scene
-from prolepsis.things import FloatArray, Quaternion, Thing, triple
+from prolepsis.scene.robot import Joint
+from prolepsis.scene.scene import Scene, reference_of, robot_of_gripper
+from prolepsis.system.mujoco import mujoco
+from prolepsis.terms.errors import PlanError
 
 START_SPEED = 0.25
 """With which the hand goes to where the recording starts [m/s, rad/s]."""

@@ -7,21 +7,21 @@ from collections.abc import Generator
 
 import numpy as np
 
+from prolepsis.geometry.shape import FloatArray, Quaternion, triple
+from prolepsis.log.things import Thing
 from prolepsis.programs.action import FORCE, HAND, HELD, Parameter, action
 from prolepsis.programs.actions.gripping import close_from
 from prolepsis.programs.actions.motion import MARGIN, open_to, stay, travel
 from prolepsis.programs.combining import Maker, all_together
-from prolepsis.programs.commands import Behaviour, Command, Sense, Way, no_way
 from prolepsis.programs.following import follow, go
 from prolepsis.programs.grasping import CLEARANCE, STANDOFF, as_seen
 from prolepsis.programs.holding import holding
 from prolepsis.programs.profile import least_jerk
 from prolepsis.programs.two_hands import OTHER, SHORTS, Hold, Placed, check_two_arms, hold_out
+from prolepsis.robots.commands import Behaviour, Command, Sense, Way, no_way
 from prolepsis.robots.turned import quaternion_of, turn_of
 from prolepsis.scene.extent import extent_along, support
-from prolepsis.scene.robot_world import reference_of
-from prolepsis.scene.scene import Scene
-from prolepsis.things import FloatArray, Quaternion, Thing, triple
+from prolepsis.scene.scene import Scene, reference_of
 
 OPENING_TIME, PARTING_TIME = 1.0, 1.0
 """Bending open and drawing apart take so long [s]."""

@@ -6,18 +6,18 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.errors import PlanError
+from prolepsis.geometry.shape import FloatArray, Triple
+from prolepsis.log.things import Thing
 from prolepsis.programs.action import HAND, HELD, Parameter, action
 from prolepsis.programs.actions.motion import stay, travel, travel_over
-from prolepsis.programs.commands import ActionFailedError, Behaviour, HandTarget, Note, Sense
 from prolepsis.programs.following import follow
 from prolepsis.programs.grasping import as_seen
 from prolepsis.programs.holding import free_place, move_held, spots
 from prolepsis.programs.turning import TICK
+from prolepsis.robots.commands import ActionFailedError, Behaviour, HandTarget, Note, Sense
 from prolepsis.scene.extent import middle, support
-from prolepsis.scene.robot_world import reference_of
-from prolepsis.scene.scene import Scene
-from prolepsis.things import FloatArray, Thing, Triple
+from prolepsis.scene.scene import Scene, reference_of
+from prolepsis.terms.errors import PlanError
 
 LEAST_WINDUP = 0.03
 """The hand comes from at least this high above what it hits [m]."""

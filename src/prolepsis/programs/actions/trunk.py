@@ -7,12 +7,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from prolepsis.errors import PlanError
+from prolepsis.log.things import Thing
 from prolepsis.programs.action import OBJECT, ROBOT_NAME, Parameter, action
-from prolepsis.programs.commands import ActionFailedError, Behaviour, JointTarget, RobotSense, Sense
 from prolepsis.programs.profile import least_jerk, least_time
+from prolepsis.robots.commands import ActionFailedError, Behaviour, JointTarget, RobotSense, Sense
 from prolepsis.scene.scene import Scene
-from prolepsis.things import Thing
+from prolepsis.terms.errors import PlanError
 
 
 def move_joints(robot: Thing, sense: Sense, goals: Mapping[str, float], speed: float | None = None) -> Behaviour:

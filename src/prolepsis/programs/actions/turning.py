@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 
+from prolepsis.log.things import Thing
 from prolepsis.programs.action import HAND, Parameter, action
-from prolepsis.programs.commands import Behaviour, Sense
 from prolepsis.programs.following import follow
 from prolepsis.programs.turning import course
+from prolepsis.robots.commands import Behaviour, Sense
 from prolepsis.scene.scene import Scene
-from prolepsis.things import Thing
 
 ANGLE = Parameter(name="angle", kind="angle")
 RATE = Parameter(name="rate", kind="rate", default=math.radians(30.0))

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from prolepsis.geometry.shape import Triple
+from prolepsis.log.things import Thing
 from prolepsis.programs.action import HAND, HELD, Parameter, action
 from prolepsis.programs.actions.motion import TICK, line, travel
-from prolepsis.programs.commands import Behaviour, HandTarget, Sense
+from prolepsis.robots.commands import Behaviour, HandTarget, Sense
 from prolepsis.scene.scene import Scene
-from prolepsis.things import Thing, Triple
 
 ACCELERATION = 2.0
 """Of the strokes [m/s^2]."""

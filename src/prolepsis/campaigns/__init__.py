@@ -1,0 +1,1 @@
+"""Many runs of one scenario: sweeps, and how their outcomes are told."""

@@ -1,0 +1,239 @@
+"""The recorder: copies of poses and contacts while the run goes on, turned into log columns at its end.
+
+It reads the simulation and changes nothing in it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from prolepsis.engine.bodies import Bodies
+from prolepsis.engine.gaining import Surroundings
+from prolepsis.engine.matter import Matter, Stretch
+from prolepsis.engine.sinking import LEAST_LIMIT, Overlaps
+from prolepsis.engine.state import State
+from prolepsis.engine.touching import empty_contacts
+from prolepsis.engine.turning import product, rotated
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.log.log import Bonds, Contacts, Particles
+from prolepsis.system.mujoco import mujoco
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class _Version:
+    """What holds while the model stays the same."""
+
+    carrier: IntArray
+    offsets: FloatArray
+    body_of: IntArray
+    thing_of_geom: IntArray
+    matter: Matter
+    bodies: Bodies
+
+
+@dataclass(kw_only=True)
+class Recorder:
+    """Raw copies, in the order of time."""
+
+    versions: list[_Version] = field(default_factory=list["_Version"])
+    poses: list[tuple[int, FloatArray, FloatArray]] = field(default_factory=list[tuple[int, FloatArray, FloatArray]])
+    contacts: list[tuple[int, int, float, IntArray, IntArray, FloatArray, FloatArray, FloatArray]] = field(
+        default_factory=list[tuple[int, int, float, IntArray, IntArray, FloatArray, FloatArray, FloatArray]]
+    )
+    deep: list[tuple[int, int, IntArray, FloatArray]] = field(
+        default_factory=list[tuple[int, int, IntArray, FloatArray]]
+    )
+    """Geoms and distances [m] of contacts in which solids overlap more than contacts usually do."""
+    bonds: dict[tuple[int, int], list[tuple[int, int]]] = field(
+        default_factory=dict[tuple[int, int], list[tuple[int, int]]]
+    )
+    """What stuck to what, from which tick to before which."""
+    wet: list[tuple[BoolArray, FloatArray]] = field(default_factory=list["tuple[BoolArray, FloatArray]"])
+    """Whether a liquid pushes each body, and what each weighs [kg], at each tick of a run with liquids."""
+    _seen: int = -1
+
+    def note_version(self, state: State) -> None:
+        """Keep the maps of a model that is new."""
+        if self._seen == state.version:
+            return
+        self._seen = state.version
+        body_of = np.zeros(len(state.carrier), dtype=np.int64)
+        for body, thing in enumerate(state.body_thing):
+            if thing >= 0:
+                body_of[thing] = body
+        self.versions.append(
+            _Version(
+                carrier=state.carrier.copy(),
+                offsets=state.offsets.copy(),
+                body_of=body_of,
+                thing_of_geom=state.body_thing[state.model.geom_bodyid],
+                matter=Matter.of(state.model, state.world.scene.things),
+                bodies=Bodies.of(state.model, body_of),
+            )
+        )
+
+    def substep(self, state: State, tick: int, step: float) -> None:
+        """Copy the contacts of one substep of length ``step`` [s]."""
+        data = state.data
+        if data.ncon:
+            contact = data.contact
+            self.contacts.append(
+                (
+                    tick,
+                    len(self.versions) - 1,
+                    step,
+                    contact.geom.copy(),
+                    contact.efc_address.copy(),
+                    contact.frame.copy(),
+                    contact.pos.copy(),
+                    data.efc_force.copy(),
+                )
+            )
+            distance = contact.dist
+            if distance.min() < -LEAST_LIMIT:
+                chosen = distance < -LEAST_LIMIT
+                self.deep.append((tick, len(self.versions) - 1, contact.geom[chosen], distance[chosen]))
+
+    def tick(self, state: State) -> None:
+        """Copy the poses at the start of a tick."""
+        # After a step MuJoCo's poses are those before it; bring them up to the present state.
+        mujoco.mj_kinematics(state.model, state.data)
+        for pair in state.bonds:
+            now, runs = len(self.poses), self.bonds.setdefault(pair, [])
+            start = runs.pop()[0] if runs and runs[-1][1] == now else now
+            runs.append((start, now + 1))
+        if state.particles is not None:
+            self.wet.append((state.data.xfrc_applied.any(axis=1), state.model.body_mass.copy()))
+        self.poses.append((len(self.versions) - 1, state.data.xpos.copy(), state.data.xquat.copy()))
+
+    def stretches(self) -> list[Stretch]:
+        """Return from when to when the model stayed the same, and what could touch something then."""
+        versions = np.array([row[0] for row in self.poses])
+        found: list[Stretch] = []
+        for number, version in enumerate(self.versions):
+            ticks = np.flatnonzero(versions == number)
+            if len(ticks):
+                found.append(
+                    Stretch(start=int(ticks[0]), end=int(ticks[-1]) + 1, matter=version.matter, bodies=version.bodies)
+                )
+        return found
+
+    def matters(self) -> list[Matter]:
+        """Return what could touch something in each model."""
+        return [version.matter for version in self.versions]
+
+    def overlaps(self) -> Overlaps:
+        """Return the contacts in which solids overlapped deeply, one row each."""
+        count = [len(row[2]) for row in self.deep]
+        solids = [row[2] for row in self.deep]
+        return Overlaps(
+            tick=np.repeat(np.array([row[0] for row in self.deep], dtype=np.int64), count),
+            version=np.repeat(np.array([row[1] for row in self.deep], dtype=np.int64), count),
+            geoms=np.concatenate([np.zeros((0, 2), dtype=np.int64), *solids]),
+            depth=-np.concatenate([np.zeros(0), *(row[3] for row in self.deep)]),
+        )
+
+    def surroundings(self, contacts: Contacts, particles: Particles) -> Surroundings:
+        """Return what touched what, contacts and liquids being given."""
+        shape = len(self.wet), len(self.versions[0].carrier)
+        wet, mass = np.zeros(shape, dtype=np.bool_), np.zeros(shape)
+        for tick, (pushed, heavy) in enumerate(self.wet):
+            body_of = self.versions[self.poses[tick][0]].body_of
+            wet[tick], mass[tick] = pushed[body_of], heavy[body_of]
+        return Surroundings(contacts=contacts, bonds=self.bond_columns(), wet=wet, mass=mass, particles=particles)
+
+    def pose_columns(self) -> tuple[FloatArray, IntArray]:
+        """Return poses, shape (T, n, 7), and carriers, shape (T, n)."""
+        count = len(self.versions[0].carrier)
+        poses = np.zeros((len(self.poses), count, 7))
+        carriers = np.zeros((len(self.poses), count), dtype=np.int64)
+        versions = np.array([row[0] for row in self.poses])
+        last = np.tile([0.0, 0, 0, 1, 0, 0, 0], (count, 1))
+        for number, version in enumerate(self.versions):
+            ticks = np.flatnonzero(versions == number)
+            if not len(ticks):
+                continue
+            position = np.stack([self.poses[t][1] for t in ticks])
+            turn = np.stack([self.poses[t][2] for t in ticks])
+            carried = version.carrier >= 0
+            body = version.body_of[version.carrier]
+            outer_p, outer_q = position[:, body], turn[:, body]
+            inner_p, inner_q = version.offsets[:, :3], version.offsets[:, 3:]
+            block = np.concatenate([outer_p + rotated(outer_q, inner_p), product(outer_q, inner_q)], axis=2)
+            # What is no body of its own keeps the pose at which it was last seen.
+            block[:, ~carried] = last[~carried]
+            poses[ticks] = block
+            carriers[ticks] = version.carrier
+            last = block[-1]
+        return poses, carriers
+
+    def bond_columns(self) -> Bonds:
+        """Return one row for each time that two things stuck together."""
+        rows = sorted((start, end, *pair) for pair, runs in self.bonds.items() for start, end in runs)
+        start, end, a, b = np.array(rows, dtype=np.int64).reshape(-1, 4).T
+        return Bonds(a=a, b=b, start=start, end=end)
+
+    def contact_columns(self, dt: float) -> Contacts:
+        """Return one row for each pair of geoms and tick: forces averaged over the tick of length ``dt`` [s]."""
+        if not self.contacts:
+            return empty_contacts()
+        counts = np.array([len(row[4]) for row in self.contacts])
+        tick = np.repeat(np.array([row[0] for row in self.contacts]), counts)
+        version = np.repeat(np.array([row[1] for row in self.contacts]), counts)
+        step = np.repeat(np.array([row[2] for row in self.contacts]), counts)
+        base = np.repeat(np.cumsum([0, *(len(row[7]) for row in self.contacts[:-1])]), counts)
+        geoms = np.concatenate([row[3] for row in self.contacts])
+        address = np.concatenate([row[4] for row in self.contacts])
+        frame = np.concatenate([row[5] for row in self.contacts]).reshape(-1, 3, 3)
+        point = np.concatenate([row[6] for row in self.contacts])
+        efc = np.concatenate([row[7] for row in self.contacts])
+        active = address >= 0
+        tick, version, step = tick[active], version[active], step[active]
+        geoms, frame, point = geoms[active], frame[active], point[active]
+        local = efc[(base + address)[active][:, None] + np.arange(3)]
+        force = np.einsum("cij,ci->cj", frame, local)
+        normal_force = local[:, 0]
+        things = np.zeros_like(geoms)
+        for number, kept in enumerate(self.versions):
+            chosen = version == number
+            things[chosen] = kept.thing_of_geom[geoms[chosen]]
+        flipped = things[:, 0] > things[:, 1]
+        sign = np.where(flipped, -1.0, 1.0)
+        low = np.where(flipped, things[:, 1], things[:, 0])
+        high = np.where(flipped, things[:, 0], things[:, 1])
+        keep = (normal_force > 0) & (low >= 0) & (low != high)
+        first, second = np.where(flipped, geoms[:, 1], geoms[:, 0]), np.where(flipped, geoms[:, 0], geoms[:, 1])
+        span = int(geoms.max(initial=0)) + 1
+        key = ((tick * len(self.versions) + version) * span + first) * span + second
+        # In one sort, in which substeps stay in their order; two calls of numpy's unique take three times as long.
+        order = np.argsort(key[keep], kind="stable")
+        begins = np.diff(key[keep][order], prepend=-1) != 0
+        group = np.empty(len(order), dtype=np.int64)
+        group[order] = np.cumsum(begins) - 1
+        rows = np.stack([tick[keep], low[keep], high[keep]], axis=1)[order[begins]]
+        size = len(rows)
+        weight = (normal_force * step)[keep]
+        total = np.bincount(group, weights=weight, minlength=size)
+
+        def summed(values: FloatArray, factor: FloatArray) -> FloatArray:
+            columns = [np.bincount(group, weights=values[:, k] * factor, minlength=size) for k in range(3)]
+            return np.stack(columns, axis=1).astype(np.float64)
+
+        normal = summed((frame[:, 0] * sign[:, None])[keep], weight)
+        length = np.linalg.norm(normal, axis=1, keepdims=True)
+        # The peak is that of the pair at one substep, so contact points of the same substep add up first.
+        substep = np.repeat(np.arange(len(self.contacts)), counts)[active][keep]
+        moments = begins | (np.diff(substep[order], prepend=-1) != 0)
+        at_once = np.bincount(np.cumsum(moments) - 1, weights=normal_force[keep][order])
+        peak = np.maximum.reduceat(at_once, np.flatnonzero(begins[moments])) if size else np.zeros(0)
+        return Contacts(
+            tick=rows[:, 0],
+            a=rows[:, 1],
+            b=rows[:, 2],
+            force=summed((force * sign[:, None])[keep], step[keep]) / dt,
+            normal=normal / np.where(length > 0, length, 1),
+            point=summed(point[keep], weight) / total[:, None],
+            peak=peak,
+        )

@@ -1,0 +1,126 @@
+"""Robots in a world: the model is attached under the robot's name, its joints get servos, its geoms contact rules."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import combinations
+from typing import Any
+
+from prolepsis.log.things import Thing
+from prolepsis.robots.grippers import COUPLING_SOLIMP, COUPLING_SOLREF
+from prolepsis.robots.model import robot_model
+from prolepsis.robots.model_file import OTHERS, OWN
+from prolepsis.scene.robot import Arm, Joint, Robot
+from prolepsis.scene.scene import Scene
+from prolepsis.scene.shapes.from_model import touches
+from prolepsis.system.mujoco import mujoco
+
+FIRST_ARM, MOST_ARMS = 4, 29
+"""Contact bit of the first arm, and how many arms have one of their own: MuJoCo has 31 bits."""
+
+
+def add_robot(spec: Any, robot: Robot, thing: Thing, arms: Sequence[str]) -> None:
+    """Attach a robot to a world at the place of ``thing``, with servos for its joints and motors for its grippers.
+
+    Args:
+        spec: The ``mujoco.MjSpec`` of the world.
+        robot: What it is.
+        thing: The robot in the scene.
+        arms: Names of all arms in the world: each touches the others, but neither itself nor its trunk.
+    """
+    read = robot_model(robot)
+    child = read.spec()
+    for part in (*child.actuators, *child.keys, *child.sensors):
+        child.delete(part)
+    frame = spec.worldbody.add_frame(pos=list(thing.position), quat=list(thing.orientation))
+    spec.attach(child, prefix=f"{thing.name}/", frame=frame)
+    for joint in robot.joints:
+        _add_servo(spec, f"{thing.name}/{joint.name}", joint)
+    for arm in robot.arms:
+        _add_gripper(spec, thing.name, arm)
+    _name_geoms(spec, read.model, thing.name)
+    _let_arms_touch(spec, robot, thing.name, arms)
+
+
+def rule_contacts(spec: Any, scene: Scene, robot: str, rule: Callable[[Any, Thing], None]) -> None:
+    """Give the geoms of a robot and its grippers their contact rules by ``rule(geom, thing)``."""
+    for thing in scene.things:
+        if thing.name.startswith(f"{robot}/") and thing.whole is not None:
+            for k in range(len(thing.shape.geoms)):
+                rule(spec.geom(f"{thing.name}/{k}"), thing)
+
+
+def posture(robot: Robot, name: str, scene: Scene) -> dict[str, float]:
+    """Return the coordinates of a robot's joints at the start, by their names in the world."""
+    openings = {arm.name: scene.thing(arm.name).quantities["opening"] for arm in robot.arms}
+    _, coordinates = robot_model(robot).at_home(openings)
+    return {f"{name}/{joint}": value for joint, value in coordinates.items()}
+
+
+def _let_arms_touch(spec: Any, robot: Robot, name: str, arms: Sequence[str]) -> None:
+    """Give the geoms of each arm, from its first link to the pads, contact bits that the other arms meet."""
+    bits = {arm: FIRST_ARM << (number % MOST_ARMS) for number, arm in enumerate(arms)}
+    every = sum({*bits.values()})
+    firsts: dict[str, str] = {}
+    for body, arm in _arms_of_bodies(robot).items():
+        firsts.setdefault(arm, f"{name}/{body}")
+        for geom in spec.body(f"{name}/{body}").geoms:
+            if geom.contype or geom.conaffinity:
+                geom.contype, geom.conaffinity = OWN | bits[arm], OTHERS | (every & ~bits[arm])
+    # Where arms begin side by side, their models may overlap.
+    for a, b in combinations(firsts.values(), 2):
+        spec.add_exclude(bodyname1=a, bodyname2=b)
+
+
+def _arms_of_bodies(robot: Robot) -> dict[str, str]:
+    """Return the arm that moves a body, by body, from the trunk outwards; what two of them move is the trunk's."""
+    model = robot_model(robot).model
+    tops = [(int(model.jnt_bodyid[model.joint(arm.joints[0].name).id]), arm.name) for arm in robot.arms]
+    moved_by: list[list[str]] = [[]]
+    for body in range(1, model.nbody):
+        moved_by.append(moved_by[int(model.body_parentid[body])] + [arm for top, arm in tops if top == body])
+    return {model.body(b).name: names[0] for b, names in enumerate(moved_by) if len(names) == 1}
+
+
+def _add_servo(spec: Any, name: str, joint: Joint) -> None:
+    servo = spec.add_actuator(name=name, target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+    servo.gaintype = mujoco.mjtGain.mjGAIN_FIXED
+    servo.biastype = mujoco.mjtBias.mjBIAS_AFFINE
+    servo.gainprm[0] = joint.stiffness
+    servo.biasprm[1] = -joint.stiffness
+    servo.biasprm[2] = -joint.damping
+
+
+def _add_gripper(spec: Any, robot: str, arm: Arm) -> None:
+    gripper = arm.gripper
+    fingers = [f"{robot}/{finger}" for finger in gripper.fingers]
+    palm = spec.body(f"{robot}/{gripper.palm}")
+    palm.add_site(name=f"{arm.name}/tool", pos=list(gripper.tool), quat=list(gripper.tool_orientation))
+    tendon = spec.add_tendon(name=f"{arm.name}/gap")
+    for finger in fingers:
+        tendon.wrap_joint(finger, 1.0)
+    if not any({each.name1, each.name2} == {*fingers} for each in spec.equalities):
+        spec.add_equality(
+            name=f"{arm.name}/coupling",
+            type=mujoco.mjtEq.mjEQ_JOINT,
+            name1=fingers[0],
+            name2=fingers[1],
+            objtype=mujoco.mjtObj.mjOBJ_JOINT,
+            data=[0, 1, *[0] * 10],
+            solref=list(COUPLING_SOLREF),
+            solimp=list(COUPLING_SOLIMP),
+        )
+    motor = spec.add_actuator(name=f"{arm.name}/gap", target=f"{arm.name}/gap", trntype=mujoco.mjtTrn.mjTRN_TENDON)
+    motor.biastype = mujoco.mjtBias.mjBIAS_AFFINE
+
+
+def _name_geoms(spec: Any, model: Any, robot: str) -> None:
+    """Name the geoms that can touch something after their thing and number, as all geoms of a world are."""
+    for body in range(1, model.nbody):
+        thing = f"{robot}/{model.body(body).name}"
+        geoms = [g for g in range(model.ngeom) if int(model.geom_bodyid[g]) == body]
+        count = 0
+        for made, geom in zip(spec.body(thing).geoms, geoms, strict=True):
+            if touches(model, geom):
+                made.name = f"{thing}/{count}"
+                count += 1

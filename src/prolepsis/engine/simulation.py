@@ -1,0 +1,274 @@
+"""The one loop: program -> targets; physics step; phenomena; monitors -> log."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from prolepsis.engine.channels import Channels, Watched, chosen_monitors
+from prolepsis.engine.crossing import crossings
+from prolepsis.engine.frames import Frames
+from prolepsis.engine.gaining import Surroundings, gains
+from prolepsis.engine.reaching import reaches
+from prolepsis.engine.recorder import Recorder
+from prolepsis.engine.sinking import sinkings
+from prolepsis.engine.state import State
+from prolepsis.engine.world import World
+from prolepsis.geometry.shape import FloatArray
+from prolepsis.log.log import Action, Contacts, Detachments, Log
+from prolepsis.log.things import Thing
+from prolepsis.matter.kinds import PHENOMENA, Attach, Detachment, Draw
+from prolepsis.matter.shells.breaking import Breaking
+from prolepsis.programs.program import Program
+from prolepsis.robots.commands import Begin, Command, End, Sense
+from prolepsis.robots.control import Controls
+from prolepsis.scene.running import MAX_STEP
+from prolepsis.system.mujoco import mujoco
+from prolepsis.system.threads import one_thread
+from prolepsis.terms.errors import InvalidSimulationError, PlanError, ScenarioError
+from prolepsis.terms.terms import Term
+
+TICK = 1.0e-3
+"""The clock of the log [s]."""
+SETTLING = 0.5
+"""A run without a given duration goes on for this long after its program has ended [s]."""
+LONGEST = 600.0
+"""No run is longer than this [s]; each second of it takes about one to compute."""
+THIN = 0.003
+"""What is thinner than this [m] is named as the reason when something has gone through it."""
+MAX_SPEED = 200.0
+"""No thing of a household moves faster [m/s]; what does has diverged."""
+
+
+@one_thread()
+def simulate(
+    world: World,
+    program: Program,
+    *,
+    duration: float | None = None,
+    seed: int = 1,
+    draw: bool = False,
+    max_step: float = MAX_STEP,
+    phenomena: Sequence[Attach] = PHENOMENA,
+    monitors: Mapping[str, Sequence[str]] | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> Log:
+    """Run a program in a world and return the log.
+
+    Args:
+        world: The compiled scene; it is not changed.
+        program: The control program.
+        duration: Simulated time [s]; the program's length plus settling when None.
+        seed: Seed of everything that is drawn.
+        draw: Draw uncertain strengths from their distributions instead of taking the means.
+        max_step: Longest substep [s]; phenomena ask for shorter ones.
+        phenomena: What adds to rigid-body physics, in the order in which it runs.
+        monitors: Thing to the names of what is logged of it; the defaults for things that are not named.
+        progress: Called now and then with the simulated time [s].
+
+    Raises:
+        ScenarioError: If the duration is out of range, or a monitor does not suit its thing.
+        PlanError: If the plan does not end.
+        InvalidSimulationError: If the physics diverges, or something passes through solid matter; the message says
+            when and where.
+    """
+    if duration is not None and not TICK <= duration <= LONGEST:
+        raise ScenarioError(f"duration: {duration:g} s is not between {TICK:g} and {LONGEST:g} s")
+    state = State.of(world)
+    things = world.scene.things
+    drawing = Draw(rng=np.random.default_rng(seed), spread=draw)
+    going = [controller for attach in phenomena for controller in attach(state, drawing)]
+    controls = Controls.of(state)
+    recorder = Recorder()
+    frames = Frames()
+    channels = Channels(chosen_monitors(things, monitors))
+    breaking = {each.thing.name: each for each in going if isinstance(each, Breaking)}
+    watched = Watched(state=state, hands=controls.hands, breaking=breaking)
+    detachments: list[tuple[int, Detachment]] = []
+    running: dict[Term, list[int]] = {}
+    actions: list[Action] = []
+    behaviour = program.start(_sense(state, controls, 0.0))
+    ended_at: int | None = None
+    tick = 0
+    while True:
+        if duration is not None:
+            if tick >= round(duration / TICK):
+                break
+        elif ended_at is not None and tick >= ended_at + round(SETTLING / TICK):
+            break
+        elif tick >= round(LONGEST / TICK):
+            raise PlanError(f"plan: it has not ended after {LONGEST:g} s; shorten it or give a duration")
+        if progress is not None and tick % 100 == 0:
+            progress(tick * TICK)
+
+        # Program -> targets.
+        for command in behaviour.step(_sense(state, controls, tick * TICK)):
+            _note(command, tick, running, actions)
+            controls.accept(command)
+        if behaviour.ended and ended_at is None:
+            ended_at = tick
+        controls.act(state, TICK)
+
+        recorder.note_version(state)
+        recorder.tick(state)
+        frames.tick(state, tick)
+        channels.tick(watched)
+
+        step = min((phenomenon.substep(state) for phenomenon in going), default=MAX_STEP)
+        step = min(step, max_step)
+        count = math.ceil(TICK / step - 1e-9)
+        state.model.opt.timestep = TICK / count
+        together = count if all(phenomenon.is_steady() for phenomenon in going) else 1
+        for _ in range(count // together):
+            # Physics step.
+            mujoco.mj_step(state.model, state.data, together)
+            if not float(state.data.qvel @ state.data.qvel) <= MAX_SPEED**2 * state.model.nv:
+                _refuse(state, tick)
+            recorder.substep(state, tick, TICK * together / count)
+            # Phenomena, in their one order.
+            for phenomenon in going:
+                version = state.version
+                detachments += [(tick, detached) for detached in phenomenon.act(state)]
+                if state.version != version:
+                    for each in going:
+                        each.bind(state)
+                    state.model.opt.timestep = TICK / count
+                    recorder.note_version(state)
+                    controls.bind(state)
+                    # The forces are now those of the rebuilt model, which no step has used and no row holds yet.
+                    break
+        if state.warnings or int(state.data.warning.number.sum()):
+            _refuse(state, tick)
+        for phenomenon in going:
+            phenomenon.tick(state)
+        controls.measure(state)
+        tick += 1
+
+    cut = [(term, start) for term, starts in running.items() for start in starts]
+    actions += [Action(term=term, start=start, end=tick, outcome="cut") for term, start in cut]
+    poses, carriers = recorder.pose_columns()
+    contacts, particles = recorder.contact_columns(TICK), frames.columns(state)
+    _refuse_passed(things, recorder, poses, contacts)
+    _refuse_gained(things, recorder, poses, recorder.surroundings(contacts, particles), np.array(world.scene.gravity))
+    return Log(
+        dt=TICK,
+        things=things,
+        time=np.arange(tick, dtype=np.float64) * TICK,
+        poses=poses,
+        carrier=carriers,
+        contacts=contacts,
+        bonds=recorder.bond_columns(),
+        detachments=_detachment_columns(detachments),
+        channels=channels.columns(),
+        actions=tuple(sorted((a for a in actions if a.end > a.start), key=lambda a: (a.start, -a.end, str(a.term)))),
+        particles=particles,
+        gravity=world.scene.gravity,
+    )
+
+
+def _sense(state: State, controls: Controls, time: float) -> Sense:
+    hands, robots = controls.sense()
+    return Sense(
+        time=time,
+        hands=hands,
+        place=state.place,
+        orientation=state.orientation,
+        pressing=state.pressing,
+        cracked=lambda name: state.attribute(name, "broken") > 0.0,
+        robots=robots,
+    )
+
+
+def _note(command: Command, tick: int, running: dict[Term, list[int]], actions: list[Action]) -> None:
+    if isinstance(command, Begin):
+        # The same action may run twice at once, as two waits that are done together.
+        running.setdefault(command.term, []).append(tick)
+    elif isinstance(command, End):
+        start = running[command.term].pop(0)
+        actions.append(
+            Action(
+                term=command.term,
+                start=start,
+                end=max(tick, start + 1),
+                outcome=command.outcome,
+                evidence=dict(command.evidence),
+            )
+        )
+
+
+def _refuse(state: State, tick: int) -> None:
+    """End the run: the physics has diverged.
+
+    Raises:
+        InvalidSimulationError: Always.
+    """
+    data: Any = state.data
+    worst = int(np.nan_to_num(np.abs(data.qvel), nan=np.inf).argmax())
+    body = state.model.body(state.model.dof_bodyid[worst]).name
+    kinds = [mujoco.mjtWarning(int(k)).name for k in np.flatnonzero(data.warning.number)]
+    why = f" ({', '.join(kinds)})" if kinds else ""
+    raise InvalidSimulationError(f"the simulation became unstable at {tick * TICK:.3f} s at {body}{why}")
+
+
+def _refuse_passed(things: Sequence[Thing], recorder: Recorder, poses: FloatArray, contacts: Contacts) -> None:
+    """End the run if something has gone through solid matter, stayed in it, or touches something through it.
+
+    Raises:
+        InvalidSimulationError: If so; the message names what did it first, and when.
+    """
+    names, stretches = [thing.name for thing in things], recorder.stretches()
+    found = [
+        (each.tick, f"{names[each.mover]} has gone into {names[each.obstacle]} or through it", each.thickness)
+        for each in crossings(things, poses, stretches)
+    ]
+    found += [
+        (each.tick, f"{names[each.first]} is pressed {each.depth * 1000:.1f} mm into {names[each.second]}", np.inf)
+        for each in sinkings(things, recorder.overlaps(), recorder.matters(), TICK)
+    ]
+    found += [
+        (each.tick, f"{names[each.first]} reaches {names[each.second]} through {names[each.between]}", each.thickness)
+        for each in reaches(things, poses, contacts, stretches, TICK)
+    ]
+    if found:
+        tick, what, thickness = min(found)
+        why = "contacts are too soft for such speeds or weights"
+        if thickness < THIN:
+            why = f"contacts are too soft for what is {thickness * 1000:.2g} mm thick"
+        raise InvalidSimulationError(f"at {tick * TICK:.3f} s {what}: {why}")
+
+
+def _refuse_gained(
+    things: Sequence[Thing], recorder: Recorder, poses: FloatArray, around: Surroundings, gravity: FloatArray
+) -> None:
+    """End the run if something has gained energy from nothing.
+
+    Raises:
+        InvalidSimulationError: If so; the message names what did it first, and when.
+    """
+    found = min(
+        gains(things, poses, around, recorder.stretches(), gravity, TICK),
+        key=lambda gain: (gain.tick, gain.thing),
+        default=None,
+    )
+    if found is not None:
+        what = "is thrown back by a liquid with more than" if found.returned else "moves with more energy than"
+        whose = "half of the energy that it came with" if found.returned else "it had or was given"
+        raise InvalidSimulationError(
+            f"at {found.tick * TICK:.3f} s {things[found.thing].name} {what} {whose}: it can rise "
+            f"{found.height * 1000:.0f} mm higher than it should"
+        )
+
+
+def _detachment_columns(rows: list[tuple[int, Detachment]]) -> Detachments:
+    if not rows:
+        return Detachments()
+    return Detachments(
+        tick=np.array([tick for tick, _ in rows]),
+        thing=np.array([row.thing for _, row in rows]),
+        a=np.array([row.a for _, row in rows]),
+        b=np.array([row.b for _, row in rows]),
+        force=np.array([row.force for _, row in rows]),
+    )

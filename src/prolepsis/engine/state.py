@@ -1,0 +1,354 @@
+"""The only mutable thing: model and data of a running simulation, and which body carries which thing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from prolepsis.engine.world import DEBRIS_IMPEDANCE_RATIO, World, add_geom
+from prolepsis.geometry.shape import FloatArray, IntArray, Quaternion, Triple
+from prolepsis.log.things import Thing
+from prolepsis.robots.turned import compose_pose, relative_pose
+from prolepsis.scene.particles import ParticleState
+from prolepsis.scene.running import ContactForces, PointJoint
+from prolepsis.scene.scene import Scene
+from prolepsis.system.mujoco import mujoco
+
+FEW_CONTACTS = 16
+"""Up to so many contacts, plain lists are faster than arrays."""
+JOINT = "joint:"
+"""Names of joints at points begin so."""
+JOINT_SOLREF = (0.002, 1.0)
+"""They give as little as the longest substep allows."""
+
+
+@dataclass(kw_only=True)
+class State:
+    """A running simulation."""
+
+    world: World
+    spec: Any
+    model: Any
+    data: Any
+    carrier: IntArray
+    """Index of the thing that carries each thing, -1 for none, shape (n,)."""
+    offsets: FloatArray
+    """Pose of each thing in its carrier's frame, shape (n, 7)."""
+    body_thing: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    """Index of the thing that each MuJoCo body is, -1 for none, shape (nbody,)."""
+    version: int = 0
+    """Counts the rebuilt models."""
+    warnings: int = 0
+    """MuJoCo's warnings before the model was last rebuilt."""
+    attributes: dict[tuple[str, str], float] = field(default_factory=dict[tuple[str, str], float])
+    """What controllers have changed: (thing, attribute) to its value."""
+    particles: ParticleState | None = None
+    """The particles of all liquids, if there are any."""
+    bonds: set[tuple[int, int]] = field(default_factory=set[tuple[int, int]])
+    """What sticks to what now: indices of the holding and the held thing."""
+    _body_of_geom: list[int] = field(default_factory=list[int])
+    _bodies_version: int = -1
+    _forces: list[tuple[int, int, int, float]] = field(default_factory=list[tuple[int, int, int, float]])
+    _forces_at: tuple[int, float] = (-1, 0.0)
+    _pairs: list[list[int]] = field(default_factory=list[list[int]])
+    _pairs_at: tuple[int, float] = (-1, 0.0)
+
+    @classmethod
+    def of(cls, world: World) -> State:
+        """Return the state at the start of a run."""
+        things = world.scene.things
+        index = {thing.name: i for i, thing in enumerate(things)}
+        spec = world.spec.copy()
+        model = spec.compile()
+        carrier = np.full(len(things), -1)
+        for i in range(len(things)):
+            carrier[i] = _carrier(world, index, i)
+        state = cls(
+            world=world,
+            spec=spec,
+            model=model,
+            data=world.start(model),
+            carrier=carrier,
+            offsets=np.tile([0.0, 0, 0, 1, 0, 0, 0], (len(things), 1)),
+        )
+        state.refresh()
+        for i, thing in enumerate(things):
+            if carrier[i] >= 0 and carrier[i] != i:
+                holder = things[int(carrier[i])]
+                state.offsets[i] = relative_pose(
+                    np.array([*holder.position, *holder.orientation]), np.array([*thing.position, *thing.orientation])
+                )
+        mujoco.mj_forward(model, state.data)
+        return state
+
+    @property
+    def scene(self) -> Scene:
+        """What the world was made from."""
+        return self.world.scene
+
+    def is_body(self, thing: Thing) -> bool:
+        """Return whether a thing is a rigid body of its own at the start."""
+        return self.world.is_body(thing)
+
+    def refresh(self) -> None:
+        """Bring the map from bodies to things up to date after the model has changed."""
+        index = {thing.name: i for i, thing in enumerate(self.scene.things)}
+        self.body_thing = np.array([index.get(self.model.body(b).name, -1) for b in range(self.model.nbody)])
+
+    def attribute(self, name: str, attribute: str) -> float:
+        """Return an attribute of a thing: as changed by a controller, as known at the start, or 0."""
+        changed = self.attributes.get((name, attribute))
+        if changed is not None:
+            return changed
+        return float(self.scene.thing(name).quantities.get(attribute, 0.0))
+
+    def set_attribute(self, name: str, attribute: str, value: float) -> None:
+        """Change an attribute of a thing."""
+        self.attributes[name, attribute] = value
+
+    def set_friction(self, index: int, friction: float) -> None:
+        """Give a thing's surface another sliding friction [1], for the rest of the run."""
+        thing = self.scene.things[index]
+        for k in range(len(thing.shape.geoms)):
+            name = f"{thing.name}/{k}"
+            kept, now = self.spec.geom(name), self.model.geom(name)
+            kept.friction = [friction, *kept.friction[1:]]
+            kept.priority = self.world.ranks[friction]
+            now.friction[0], now.priority[0] = friction, kept.priority
+            for pair in self.spec.pairs:
+                if name in (pair.geomname1, pair.geomname2):
+                    slippery = min(friction, float(pair.friction[0]))
+                    pair.friction = [slippery, slippery, *pair.friction[2:]]
+                    self.model.pair(pair.name).friction[:2] = slippery
+
+    def pose(self, name: str) -> FloatArray:
+        """Return where a thing is and how it is turned, shape (7,); one that is no body any more is as at the start."""
+        scene = self.scene
+        i = scene.index(name)
+        carrier = int(self.carrier[i])
+        if carrier < 0:
+            return np.array([*scene.things[i].position, *scene.things[i].orientation])
+        body = self.data.body(scene.things[carrier].name)
+        return compose_pose(np.array([*body.xpos, *body.xquat]), self.offsets[i])
+
+    def place(self, name: str) -> Triple:
+        """Return where a thing is in the world [m]; one that is no body any more is where it was at the start."""
+        x, y, z = (float(value) for value in self.pose(name)[:3])
+        return (x, y, z)
+
+    def orientation(self, name: str) -> Quaternion:
+        """Return how a thing is turned in the world, a unit quaternion (w, x, y, z)."""
+        w, x, y, z = (float(value) for value in self.pose(name)[3:])
+        return (w, x, y, z)
+
+    def velocity(self, name: str) -> FloatArray:
+        """Return the velocity of a thing's carrier [m/s], shape (3,); zeros if it has none."""
+        scene = self.scene
+        carrier = int(self.carrier[scene.index(name)])
+        return self._twist(scene.things[carrier].name)[3:] if carrier >= 0 else np.zeros(3)
+
+    def velocity_at(self, body: str, point: FloatArray) -> FloatArray:
+        """Return the velocity of a point of a MuJoCo body in the world [m/s], shape (3,)."""
+        twist, arm = self._twist(body), np.asarray(point - self.data.body(body).xpos, dtype=np.float64)
+        return twist[3:] + np.cross(twist[:3], arm)
+
+    def _twist(self, body: str) -> FloatArray:
+        """Return angular [rad/s] and linear velocity [m/s] of a MuJoCo body's frame, world axes, shape (6,)."""
+        twist = np.zeros(6)
+        number = self.model.body(body).id
+        mujoco.mj_objectVelocity(self.model, self.data, mujoco.mjtObj.mjOBJ_XBODY, number, twist, 0)
+        return twist
+
+    def normal_forces(self) -> list[tuple[int, int, int, float]]:
+        """Return contact number, both bodies and normal force [N] of each active contact of the last substep."""
+        data = self.data
+        if not data.ncon:
+            return []
+        # Several ask after each step.
+        if self._forces_at != (self.version, data.time):
+            self._forces_at = (self.version, data.time)
+            self._forces = self._listed_forces()
+        return self._forces
+
+    def touching(self) -> list[list[int]]:
+        """Return both geoms of each contact of the last substep, active or not."""
+        if self._pairs_at != (self.version, self.data.time):
+            self._pairs_at = (self.version, self.data.time)
+            self._pairs = self.data.contact.geom.tolist()
+        return self._pairs
+
+    def _listed_forces(self) -> list[tuple[int, int, int, float]]:
+        data, contact = self.data, self.data.contact
+        if data.ncon > FEW_CONTACTS:
+            active = np.flatnonzero(contact.efc_address >= 0)
+            bodies = self.model.geom_bodyid[contact.geom[active]]
+            forces = data.efc_force[contact.efc_address[active]]
+            return list(
+                zip(active.tolist(), bodies[:, 0].tolist(), bodies[:, 1].tolist(), forces.tolist(), strict=True)
+            )
+        if self._bodies_version != self.version:
+            self._bodies_version = self.version
+            self._body_of_geom = self.model.geom_bodyid.tolist()
+        body, force = self._body_of_geom, data.efc_force
+        return [
+            (k, body[a], body[b], float(force[row]))
+            for k, ((a, b), row) in enumerate(zip(self.touching(), contact.efc_address.tolist(), strict=True))
+            if row >= 0
+        ]
+
+    def pressing(self, first: str, second: str) -> float:
+        """Return the normal force between two wholes, their parts included, at the last substep [N]."""
+        things = self.scene.things
+
+        def whole(body: int) -> str:
+            thing = things[int(self.body_thing[body])] if self.body_thing[body] >= 0 else None
+            while thing is not None and thing.whole is not None and thing.name not in (first, second):
+                thing = self.scene.thing(thing.whole)
+            return thing.name if thing is not None else ""
+
+        wanted = {first, second}
+        return sum(force for _, a, b, force in self.normal_forces() if {whole(a), whole(b)} == wanted)
+
+    def contact_forces(self) -> ContactForces:
+        """Return the active contacts of the last substep."""
+        contact = self.data.contact
+        address = contact.efc_address
+        active = address >= 0
+        rows = address[active]
+        geoms = contact.geom[active]
+        frames = contact.frame[active].reshape(-1, 3, 3)
+        local = self.data.efc_force[rows[:, None] + np.arange(3)]
+        return ContactForces(
+            numbers=np.flatnonzero(active),
+            geoms=geoms,
+            bodies=self.model.geom_bodyid[geoms],
+            normal_force=local[:, 0],
+            force=np.einsum("cij,ci->cj", frames, local),
+            points=contact.pos[active],
+        )
+
+    def split(self, body_name: str, fragments: Sequence[Sequence[int]]) -> None:
+        """Replace one rigid body by several that move on as its parts did.
+
+        Args:
+            body_name: The body that falls apart.
+            fragments: The things that each new body consists of; the first gives it its name and frame.
+        """
+        things = self.scene.things
+        old = self.data.body(body_name)
+        origin, turn = old.xpos.copy(), old.xquat.copy()
+        velocity = self._twist(body_name)
+        old_thing = int(self.body_thing[self.model.body(body_name).id])
+        groups = fragments
+        poses = {i: compose_pose(np.array([*origin, *turn]), self.offsets[i]) for group in groups for i in group}
+        for pair in list(self.spec.pairs):
+            if body_name in (pair.geomname1.rsplit("/", 1)[0], pair.geomname2.rsplit("/", 1)[0]):
+                self.spec.delete(pair)
+        self.spec.delete(self.spec.body(body_name))
+        for group in groups:
+            lead = things[group[0]]
+            body = self.spec.worldbody.add_body(
+                name=lead.name, pos=list(poses[group[0]][:3]), quat=list(poses[group[0]][3:])
+            )
+            body.add_freejoint(name=lead.name)
+            for i in group:
+                self.offsets[i] = relative_pose(poses[group[0]], poses[i])
+                self.carrier[i] = group[0]
+                offset = self.offsets[i][:3]
+                for k in range(len(things[i].shape.geoms)):
+                    add_geom(
+                        self.spec,
+                        body,
+                        things[i],
+                        k,
+                        self.world.ranks,
+                        mass=things[i].mass / len(things[i].shape.geoms),
+                        offset=(float(offset[0]), float(offset[1]), float(offset[2])),
+                    )
+        if old_thing not in {i for group in groups for i in group}:
+            whole = np.flatnonzero(self.carrier == old_thing)
+            self.carrier[whole] = -1
+        self.spec.option.impratio = DEBRIS_IMPEDANCE_RATIO
+        self._rebuild()
+        for group in groups:
+            joint = self.data.joint(things[group[0]].name)
+            pose = poses[group[0]]
+            joint.qpos[:] = pose
+            joint.qvel[:3] = velocity[3:] + np.cross(velocity[:3], pose[:3] - origin)
+            local = np.zeros(3)
+            inverse = np.zeros(4)
+            mujoco.mju_negQuat(inverse, pose[3:])
+            mujoco.mju_rotVecQuat(local, velocity[:3], inverse)
+            joint.qvel[3:] = local
+        mujoco.mj_forward(self.model, self.data)
+
+    def join(self, joints: Sequence[PointJoint]) -> list[int]:
+        """Replace the joints at points between bodies, and return their numbers."""
+        for known in list(self.spec.equalities):
+            if known.name.startswith(JOINT):
+                self.spec.delete(known)
+        for k, joint in enumerate(joints):
+            self.spec.add_equality(
+                name=f"{JOINT}{k}",
+                type=mujoco.mjtEq.mjEQ_CONNECT,
+                name1=joint.first,
+                name2=joint.second,
+                objtype=mujoco.mjtObj.mjOBJ_BODY,
+                data=[0.0] * 12,
+                solref=list(JOINT_SOLREF),
+            )
+        self._rebuild()
+        numbers = [int(self.model.equality(f"{JOINT}{k}").id) for k in range(len(joints))]
+        for number, joint in zip(numbers, joints, strict=True):
+            self.move_joint(number, joint.place_on_first, joint.place_on_second)
+        mujoco.mj_forward(self.model, self.data)
+        return numbers
+
+    def move_joint(self, number: int, place_on_first: FloatArray, place_on_second: FloatArray) -> None:
+        """Let a joint at a point hold other points of its bodies together, each in the frame of its body [m]."""
+        # Compiling puts the second point where it would be in the first posture.
+        self.model.eq_data[number, :3], self.model.eq_data[number, 3:6] = place_on_first, place_on_second
+
+    def joint_forces(self) -> dict[int, FloatArray]:
+        """Return the force of each active joint at a point on its first body, world frame [N], by its number."""
+        data = self.data
+        rows = int(data.ne)
+        numbers, forces = data.efc_id[:rows], data.efc_force[:rows]
+        # A joint at a point has three rows of its own.
+        return {int(number): forces[numbers == number] for number in np.unique(numbers)}
+
+    def _rebuild(self) -> None:
+        """Compile the model anew from the spec; the rest of the state is carried over."""
+        # Rebuilding starts the count of warnings again.
+        self.warnings += int(self.data.warning.number.sum())
+        old = (self.model.equality(number) for number in range(self.model.neq))
+        places = {joint.name: joint.data.copy() for joint in old if joint.name.startswith(JOINT)}
+        pairs = [self.model.pair(number) for number in range(self.model.npair)]
+        contacts = {each.name: (each.solref.copy(), each.solimp.copy(), each.margin.copy()) for each in pairs}
+        self.model, self.data = self.spec.recompile(self.model, self.data)
+        # Compiling puts the second point where it would be in the first posture, which may be centimetres off.
+        for known in self.spec.equalities:
+            if known.name in places:
+                self.model.equality(known.name).data[:] = places[known.name]
+        # The spec does not know what controllers have made of contacts.
+        for known in self.spec.pairs:
+            if known.name in contacts:
+                now = self.model.pair(known.name)
+                now.solref[:], now.solimp[:], now.margin[:] = contacts[known.name]
+        self.version += 1
+        self.refresh()
+
+
+def _carrier(world: World, index: Mapping[str, int], i: int) -> int:
+    things = world.scene.things
+    k = i
+    while True:
+        if world.is_body(things[k]):
+            return k
+        whole = things[k].whole
+        if whole is None:
+            return -1
+        k = index[whole]

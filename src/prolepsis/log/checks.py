@@ -1,0 +1,121 @@
+"""What every log must be, whoever wrote it: columns that fit each other, of finite numbers and things that exist.
+
+A folder may come from a stranger who has sealed it well, so nothing beyond this may be taken for granted by its files.
+"""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from prolepsis.geometry.shape import GEOM_TYPES, Shape
+from prolepsis.log.log import Log
+from prolepsis.log.things import Thing
+
+MOST_GEOMS, MOST_POINTS = 2_000, 10_000
+"""Solids of a thing, and points of its profile."""
+MOST_ACTIONS = 20_000
+"""More than one in each 0.1 s of the longest run; to read and recognize them takes four seconds."""
+FARTHEST = 1e10
+"""MuJoCo calls a coordinate beyond this unstable (``mjMAXVAL``) [m]."""
+UNIT = 1e-3
+"""By how much the length of a quaternion may differ from 1: nobody rounds more."""
+
+Column = npt.NDArray[Any]
+
+
+def check_log(log: Log) -> None:
+    """Check a log that was read from files.
+
+    Raises:
+        ValueError: If it is none; the message says which of its columns is wrong, and how.
+    """
+    ticks, count = log.tick_count, len(log.things)
+    if not 0.0 < log.dt < FARTHEST:
+        raise ValueError(f"the tick dt = {log.dt} s is not positive")
+    _check_things(log.things)
+    if len(log.actions) > MOST_ACTIONS:
+        raise ValueError(f"there are {len(log.actions):,} actions; allowed: {MOST_ACTIONS:,}")
+    if not np.allclose(log.time, np.arange(ticks) * log.dt, rtol=1e-9, atol=log.dt / 1000):
+        raise ValueError("the times of the ticks are not 0, dt, 2 dt ...")
+    _check_numbers("poses", log.poses)
+    lengths = np.linalg.norm(log.poses[:, :, 3:], axis=-1)
+    if lengths.size and np.abs(lengths - 1.0).max() > UNIT:
+        raise ValueError("poses: a quaternion is not of unit length")
+    _check_range("carrier", log.carrier, -1, count)
+    contacts, bonds, broken, particles = log.contacts, log.bonds, log.detachments, log.particles
+    _check_ascending("contacts", contacts.tick, ticks)
+    _check_ascending("detachments", broken.tick, ticks)
+    for name in ("force", "normal", "point", "peak"):
+        _check_numbers(f"contacts: {name}", getattr(contacts, name))
+    for what, table, names in (
+        ("contacts", contacts, ("a", "b")),
+        ("bonds", bonds, ("a", "b")),
+        ("detachments", broken, ("thing", "a", "b")),
+    ):
+        for name in names:
+            _check_range(f"{what}: {name}", getattr(table, name), 0, count)
+    _check_numbers("detachments: force", broken.force)
+    _check_range("bonds: start", bonds.start, 0, ticks + 1)
+    _check_range("bonds: end", bonds.end, 0, ticks + 1)
+    for name in ("position", "mass", "volume"):
+        _check_numbers(f"particles: {name}", getattr(particles, name))
+    if len(particles.stuff) and not 0.0 < particles.spacing < FARTHEST:
+        raise ValueError(f"particles: a spacing of {particles.spacing} m is not positive")
+    for name, series in log.channels.items():
+        _check_numbers(f"channel {name}", series)
+    for action in log.actions:
+        if not 0 <= action.start <= action.end <= ticks:
+            raise ValueError(f"an action from tick {action.start} to {action.end} is not within the {ticks} ticks")
+
+
+def _check_things(things: tuple[Thing, ...]) -> None:
+    wholes = {thing.name: thing.whole for thing in things}
+    if len(wholes) < len(things) or "" in wholes:
+        raise ValueError("two things have the same name, or one has none")
+    for name in wholes:
+        above, seen = wholes[name], {name}
+        while above is not None:
+            if above not in wholes or above in seen:
+                raise ValueError(f"{name}: is a part of {above}, which is no thing or a part of itself")
+            seen.add(above)
+            above = wholes[above]
+    for thing in things:
+        _check_numbers(f"{thing.name}: pose", np.array((*thing.position, *thing.orientation), dtype=np.float64))
+        _check_shape(thing.name, thing.shape)
+
+
+def _check_shape(name: str, shape: Shape) -> None:
+    if len(shape.geoms) > MOST_GEOMS or len(shape.profile or ()) > MOST_POINTS:
+        raise ValueError(f"{name}: has more than {MOST_GEOMS} geoms or {MOST_POINTS} points of a profile")
+    for geom in shape.geoms:
+        if geom.type not in GEOM_TYPES:
+            raise ValueError(f"{name}: no geom of type {geom.type!r}; known: {', '.join(GEOM_TYPES)}")
+        numbers = (*geom.size, *geom.position, *geom.orientation, *itertools.chain.from_iterable(geom.vertices))
+        _check_numbers(f"{name}: a geom", np.array(numbers, dtype=np.float64))
+        if min(geom.size) < 0.0:
+            raise ValueError(f"{name}: the size of a geom is negative")
+    if shape.surface is not None:
+        _check_numbers(f"{name}: surface", np.array(shape.surface.vertices, dtype=np.float64))
+        corners = np.array(shape.surface.triangles, dtype=np.int64)
+        _check_range(f"{name}: triangles", corners, 0, len(shape.surface.vertices))
+
+
+def _check_numbers(what: str, numbers: Column) -> None:
+    # A comparison with what is no number is false.
+    if numbers.dtype.kind != "f" or (numbers.size and not (numbers.min() >= -FARTHEST and numbers.max() <= FARTHEST)):
+        raise ValueError(f"{what}: a number is not finite, or too large")
+
+
+def _check_range(what: str, numbers: Column, low: int, end: int) -> None:
+    if numbers.dtype.kind != "i" or (numbers.size and not (numbers.min() >= low and numbers.max() < end)):
+        raise ValueError(f"{what}: a number is not from {low} to {end - 1}")
+
+
+def _check_ascending(what: str, tick: Column, ticks: int) -> None:
+    _check_range(f"{what}: tick", tick, 0, ticks)
+    if (np.diff(tick) < 0).any():
+        raise ValueError(f"{what}: the ticks do not ascend")

@@ -1,0 +1,207 @@
+"""A log on disk: Parquet tables and one JSON file in a sealed folder, byte-equal for equal logs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import fields
+from pathlib import Path
+from typing import Any, cast
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from prolepsis.geometry.shape import Geom, Hole, Shape, Surface, Triple
+from prolepsis.log import particle_tables, tables
+from prolepsis.log.checks import check_log
+from prolepsis.log.log import Action, Log, Particles
+from prolepsis.log.sealed import read_sealed, read_text, write_json, write_sealed
+from prolepsis.log.things import Thing
+from prolepsis.terms.errors import InputError, LogError, brief
+from prolepsis.terms.terms import Term, format_value, parse_term
+
+HEAD = "log.json"
+"""Tick, gravity, things, actions and the spacing of the particles: what is no column."""
+_EXACTLY = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+_TICKS, _POSES, _CONTACTS = "ticks.parquet", "poses.parquet", "contacts.parquet"
+_BONDS, _DETACHMENTS = "bonds.parquet", "detachments.parquet"
+_FRAMES, _KINDS, _PLACES = "particle_frames.parquet", "particle_kinds.parquet", "particles.parquet"
+
+
+class _Action(BaseModel):
+    model_config = _EXACTLY
+    term: str
+    start: int
+    end: int
+    outcome: str
+    evidence: dict[str, float | str]
+
+
+class _Particles(BaseModel):
+    model_config = _EXACTLY
+    spacing: float
+
+
+class _Head(BaseModel):
+    """What the JSON file of a log says."""
+
+    model_config = _EXACTLY
+    dt: float
+    gravity: Triple
+    things: tuple[Thing, ...]
+    actions: tuple[_Action, ...]
+    particles: _Particles | None = None
+
+
+def write_log(log: Log, folder: str | Path) -> None:
+    """Write ``log`` into a sealed folder; an earlier one of ours is replaced.
+
+    Raises:
+        InputError: If ``folder`` holds something that is not ours.
+    """
+    write_sealed(folder, lambda path: write_log_files(log, path))
+
+
+def read_log(folder: str | Path) -> Log:
+    """Return the log saved in ``folder``, which may be a whole projection.
+
+    Raises:
+        LogError: If the folder is not whole, is no log, or is of another version.
+    """
+    return read_log_files(read_sealed(folder))
+
+
+def write_log_files(log: Log, path: Path) -> None:
+    """Write the files of a log into an existing folder, unsealed.
+
+    Raises:
+        InputError: If the log is none, so that it could not be read.
+    """
+    try:
+        check_log(log)
+    except ValueError as error:
+        raise InputError(f"the log cannot be saved: {error}") from None
+    head = {
+        "dt": log.dt,
+        "gravity": log.gravity,
+        "things": [_plain(thing) for thing in log.things],
+        "actions": [_plain_action(action) for action in log.actions],
+        "particles": {"spacing": log.particles.spacing} if _has_particles(log) else None,
+    }
+    write_json(path / HEAD, head)
+    sizes: dict[str, int] = {}
+    for name, columns, kinds in _tables_of(log):
+        sizes[name] = tables.write_table(path / name, columns, kinds)
+        if sum(sizes.values()) > tables.MOST_BYTES:
+            raise InputError(
+                f"the log cannot be saved: {name} {tables.unpacked(sizes[name], sum(sizes.values()))} could be read"
+                " again; shorten the run, or take fewer particles or things"
+            )
+
+
+def _tables_of(log: Log) -> Iterator[tuple[str, tables.Columns, tables.Kinds]]:
+    """Yield the name, the columns and their kinds of each table of a log."""
+    ticks = {"time": log.time, **dict(sorted(log.channels.items()))}
+    yield _TICKS, ticks, dict.fromkeys(ticks, "double")
+    yield _POSES, tables.pose_columns(log.poses, log.carrier), tables.POSES
+    yield _CONTACTS, tables.contact_columns(log.contacts), tables.CONTACTS
+    yield _BONDS, tables.bond_columns(log.bonds), tables.BONDS
+    yield _DETACHMENTS, tables.detachment_columns(log.detachments), tables.DETACHMENTS
+    if _has_particles(log):
+        yield _FRAMES, particle_tables.frame_columns(log.particles), particle_tables.FRAMES
+        yield _KINDS, particle_tables.kind_columns(log.particles), particle_tables.KINDS
+        places = particle_tables.place_columns(log.particles)
+        yield _PLACES, places, particle_tables.place_kinds(places)
+
+
+def read_log_files(path: Path) -> Log:
+    """Return the log of a folder whose seal has been checked.
+
+    Raises:
+        LogError: If its files do not hold a log.
+    """
+    try:
+        head = _Head.model_validate_json(read_text(path / HEAD))
+        things = head.things
+        dry, wet = (_TICKS, _POSES, _CONTACTS, _BONDS, _DETACHMENTS), (_FRAMES, _KINDS, _PLACES)
+        tables.check_unpacked_sizes(path / name for name in (*dry, *(wet if head.particles else ())))
+        ticks = tables.read_table(path / _TICKS)
+        time = ticks.pop("time")
+        poses, carrier = tables.poses_from(tables.read_table(path / _POSES, tables.POSES), len(time), len(things))
+        log = Log(
+            dt=head.dt,
+            things=things,
+            time=time,
+            poses=poses,
+            carrier=carrier,
+            contacts=tables.contacts_from(tables.read_table(path / _CONTACTS, tables.CONTACTS)),
+            bonds=tables.bonds_from(tables.read_table(path / _BONDS, tables.BONDS)),
+            detachments=tables.detachments_from(tables.read_table(path / _DETACHMENTS, tables.DETACHMENTS)),
+            particles=_particles(head.particles, path, len(things), len(time)),
+            channels=ticks,
+            actions=tuple(_action(row) for row in head.actions),
+            gravity=head.gravity,
+        )
+        check_log(log)
+        return log
+    except FileNotFoundError as error:
+        raise LogError(f"{path}: holds no log (it has no {Path(str(error.filename)).name})") from None
+    except MemoryError:
+        raise LogError(f"{path}: memory ran short while its log was read; it needs more than there is") from None
+    except ValidationError as error:
+        problem = error.errors(include_url=False)[0]
+        place = "/".join(str(key) for key in problem["loc"])
+        raise LogError(f"{path}: its log is malformed: {HEAD}: {brief(place)}: {brief(problem['msg'])}") from None
+    except (KeyError, ValueError, InputError) as error:
+        if isinstance(error, LogError):
+            raise
+        lacking = "no column " if isinstance(error, KeyError) else ""
+        raise LogError(f"{path}: its log is malformed: {lacking}{brief(error, 200)}") from None
+
+
+def _has_particles(log: Log) -> bool:
+    return bool(len(log.particles.stuff) or len(log.particles.tick))
+
+
+def _particles(head: _Particles | None, path: Path, thing_count: int, tick_count: int) -> Particles:
+    if head is None:
+        return Particles()
+    frames = tables.read_table(path / _FRAMES, particle_tables.FRAMES)
+    kinds = tables.read_table(path / _KINDS, particle_tables.KINDS)
+    places = tables.read_table(path / _PLACES, particle_tables.WHOLE_PLACES, particle_tables.FINE_PLACES)
+    return particle_tables.particles_from(
+        frames, kinds, places, spacing=head.spacing, thing_count=thing_count, tick_count=tick_count
+    )
+
+
+def _plain(value: Any) -> Any:
+    """Return a thing or what its shape consists of as JSON values, fields at their defaults included."""
+    if isinstance(value, Thing | Shape | Geom | Hole | Surface):
+        return {each.name: _plain(getattr(value, each.name)) for each in fields(value)}
+    if isinstance(value, frozenset):
+        return sorted(cast("frozenset[str]", value))
+    if isinstance(value, tuple):
+        return [_plain(item) for item in cast("tuple[Any, ...]", value)]
+    if isinstance(value, Mapping):
+        return {str(key): float(number) for key, number in cast("Mapping[str, float]", value).items()}
+    return cast(Any, value).item() if isinstance(value, np.generic) else value
+
+
+def _plain_action(action: Action) -> dict[str, Any]:
+    return {
+        "term": format_value(action.term),
+        "start": int(action.start),
+        "end": int(action.end),
+        "outcome": action.outcome,
+        "evidence": dict(action.evidence),
+    }
+
+
+def _action(row: _Action) -> Action:
+    term = parse_term(row.term, where=HEAD)
+    return Action(
+        term=term if isinstance(term, Term) else Term(str(term)),
+        start=row.start,
+        end=row.end,
+        outcome=row.outcome,
+        evidence=row.evidence,
+    )

@@ -1,0 +1,194 @@
+"""The waist of the hourglass: what one run left behind, as immutable columns at a fixed tick.
+
+Physics writes it, recognition reads it, and neither knows the other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from prolepsis.geometry.shape import FloatArray, IntArray, Triple
+from prolepsis.log.things import Thing
+from prolepsis.terms.terms import Term
+
+FREE = -1
+"""Holder of a particle that flows."""
+PARKED = -2
+"""Holder of a particle that has left the scene and is only counted."""
+
+
+def _no_rows() -> IntArray:
+    return np.zeros(0, dtype=np.int64)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Contacts:
+    """Touching pairs of geoms: one row for each pair that carried force within a tick.
+
+    Forces are means over the tick, so ``force * dt`` is the impulse of the tick.
+    """
+
+    tick: IntArray
+    """Tick of the row, shape (C,), ascending."""
+    a: IntArray
+    """Index of the first thing, shape (C,): the carrier, i.e. the thing that is a rigid body at that tick."""
+    b: IntArray
+    """Index of the second thing, shape (C,); ``a < b``."""
+    force: FloatArray
+    """Force of a on b, world frame [N], shape (C, 3)."""
+    normal: FloatArray
+    """Unit normal from a to b, world frame, weighted by force, shape (C, 3)."""
+    point: FloatArray
+    """Point of contact, world frame [m], weighted by force, shape (C, 3)."""
+    peak: FloatArray
+    """Greatest normal force of the pair within the tick [N], shape (C,)."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Bonds:
+    """Permanent or switched joints between things (a weld, a hinge, adhesion): one row an interval."""
+
+    a: IntArray = field(default_factory=_no_rows)
+    """Index of the holding thing, shape (B,)."""
+    b: IntArray = field(default_factory=_no_rows)
+    """Index of the held thing, shape (B,)."""
+    start: IntArray = field(default_factory=_no_rows)
+    """First tick, shape (B,)."""
+    end: IntArray = field(default_factory=_no_rows)
+    """First tick no longer, shape (B,)."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Detachments:
+    """Joints of breakable things that gave way, accumulated between ticks."""
+
+    tick: IntArray = field(default_factory=_no_rows)
+    """Tick within which the joint detached, shape (D,), ascending."""
+    thing: IntArray = field(default_factory=_no_rows)
+    """Index of the whole that is breaking (``egg1``), shape (D,)."""
+    a: IntArray = field(default_factory=_no_rows)
+    """Index of the first piece, shape (D,)."""
+    b: IntArray = field(default_factory=_no_rows)
+    """Index of the second piece, shape (D,)."""
+    force: FloatArray = field(default_factory=lambda: np.zeros(0))
+    """Greatest contact force on the thing when the joint gave way [N], shape (D,)."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Particles:
+    """Where the liquids were: P particles, seen in F frames. Particles are never lost: each is in every frame."""
+
+    tick: IntArray = field(default_factory=_no_rows)
+    """Tick of each frame, shape (F,), ascending; the first is 0."""
+    position: npt.NDArray[np.float32] = field(default_factory=lambda: np.zeros((0, 0, 3), dtype=np.float32))
+    """World frame [m], shape (F, P, 3)."""
+    holder: npt.NDArray[np.int16] = field(default_factory=lambda: np.zeros((0, 0), dtype=np.int16))
+    """``FREE``; ``PARKED`` once it is far outside the scene; or the index of the thing that it is within and moves
+    with: the sponge that has absorbed it, the egg that still encloses it. Shape (F, P)."""
+    stuff: IntArray = field(default_factory=_no_rows)
+    """Index of the thing (``liq1``) that each particle is of, shape (P,)."""
+    mass: FloatArray = field(default_factory=lambda: np.zeros(0))
+    """[kg], shape (P,)."""
+    volume: FloatArray = field(default_factory=lambda: np.zeros(0))
+    """[m^3], shape (P,)."""
+    spacing: float = 0.0
+    """Distance of neighbours in the liquid at rest [m]: the cube root of a particle's volume. A particle that lies on a
+    wall has its centre half a spacing from it."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Action:
+    """One action of the control program, from its start to its end."""
+
+    term: Term
+    """The action with its bound arguments: ``grasp(hand1, egg1, force7)``."""
+    start: int
+    """First tick."""
+    end: int
+    """First tick no longer."""
+    outcome: str = "done"
+    """``done``, or why it ended otherwise: ``timed_out``, ``unreachable``, ``cut`` (the run ended first)."""
+    evidence: Mapping[str, float | str] = field(default_factory=dict[str, "float | str"])
+    """Measured numbers: the commanded force [N], the greatest force reached [N] ..."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Log:
+    """What one run left behind. T ticks, n things; tick i is the instant ``time[i] = i * dt``."""
+
+    dt: float
+    """Tick [s]."""
+    things: tuple[Thing, ...]
+    """Every thing that exists or may come to exist in the run (pieces and blobs included)."""
+    time: FloatArray
+    """``arange(T) * dt`` [s], shape (T,)."""
+    poses: FloatArray
+    """World position [m] and unit quaternion (w, x, y, z) of each thing, shape (T, n, 7)."""
+    carrier: IntArray
+    """Index of the thing whose rigid body carries thing i at a tick, shape (T, n). It is i itself for a
+    free or fixed body, the whole's index for a part of an intact thing, the fragment's for a piece of a
+    fragment, and -1 where the thing is no body of its own (a broken whole, a stuff in several blobs)."""
+    contacts: Contacts
+    """Touching pairs with forces."""
+    bonds: Bonds = Bonds()
+    """Joints between things."""
+    detachments: Detachments = Detachments()
+    """Broken joints of breakable things."""
+    particles: Particles = Particles()
+    """The liquids."""
+    channels: Mapping[str, FloatArray] = field(default_factory=dict[str, FloatArray])
+    """Further monitored series, each of shape (T,), named ``thing.quantity``: ``hand1.opening`` [m],
+    ``hand1.gripper`` (1 opening, -1 closing, 0 idle), ``hand1.pad_force`` [N], ``egg1.load`` [1] ..."""
+    actions: tuple[Action, ...] = ()
+    """What the control program did."""
+    gravity: Triple = (0.0, 0.0, -9.81)
+    """Gravitational acceleration, world frame [m/s^2]."""
+
+    @property
+    def tick_count(self) -> int:
+        """Number of ticks T."""
+        return len(self.time)
+
+    @property
+    def duration(self) -> float:
+        """End of the last tick [s]: ``T * dt``."""
+        return self.tick_count * self.dt
+
+    def index(self, name: str) -> int:
+        """Return the index of the thing called ``name``.
+
+        Raises:
+            UnknownNameError: If there is none.
+        """
+        from prolepsis.terms.errors import UnknownNameError
+
+        for i, thing in enumerate(self.things):
+            if thing.name == name:
+                return i
+        raise UnknownNameError.of("object", name, (thing.name for thing in self.things))
+
+    @classmethod
+    def from_mujoco(
+        cls, model: Any, states: FloatArray, dt: float, scene: Mapping[str, Thing] | Sequence[Thing] | None = None
+    ) -> Log:
+        """Return the log of any MuJoCo rollout; see ``docs/grounding.md``.
+
+        Args:
+            model: The ``mujoco.MjModel`` that was stepped.
+            states: Full integration states (``mjSTATE_INTEGRATION``), one a tick, shape (T, k).
+            dt: Time between two states [s].
+            scene: Things that say more of those in the model (kind, roles, ...), by name. Without it every
+                named top-level body is a thing.
+
+        Raises:
+            InputError: If ``states`` has the wrong shape.
+            InvalidSimulationError: If a state is not finite or MuJoCo warns of one.
+        """
+        from prolepsis.engine.rollout import read_rollout
+
+        return read_rollout(model, states, dt, scene)

@@ -1,0 +1,253 @@
+"""A run in symbols: which fluents held and which events occurred, over which right-open intervals.
+
+Instances are maximal: one fluent or event that goes on over successive ticks is one fact, so the pair of
+term and interval names it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from itertools import groupby
+from typing import Any, Literal, cast
+
+from prolepsis.log.domain import Domain
+from prolepsis.terms.errors import InputError, brief
+from prolepsis.terms.terms import Term, Value
+
+Kind = Literal["fluent", "event"]
+Argument = str | int | float
+Evidence = Mapping[str, "float | str"]
+_GREATEST, _LONGEST = 1e300, 1e15
+"""What is greater is no number of a fact, and no time [s]."""
+_KINDS = ("fluent", "event")
+
+
+def _no_evidence() -> dict[str, float | str]:
+    return {}
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Fact:
+    """One fluent that held, or one event that occurred, over one interval."""
+
+    kind: Kind
+    """``"fluent"`` for a condition, ``"event"`` for what happens."""
+    type: str
+    """Lower camel case: ``contacts``, ``closingGripper``."""
+    args: tuple[Argument, ...] = ()
+    """Names of things, or numbers."""
+    start: float
+    """First instant [s]."""
+    end: float
+    """First instant no longer [s]."""
+    evidence: Evidence = field(default_factory=_no_evidence)
+    """Measured numbers (SI units) and names behind the fact: ``{"level": "force7", "force": 12.5}``."""
+
+    @property
+    def term(self) -> Value:
+        """The fact as a term, ``contacts(hand1,egg1)``; an atom when there are no arguments."""
+        return Term(self.type, self.args) if self.args else self.type
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, weakref_slot=True, eq=False)
+class Timeline:
+    """All facts of one run with what is known of its individuals. Made by ``make_timeline``."""
+
+    facts: tuple[Fact, ...]
+    """Maximal facts, ordered by start, end, kind, type and arguments."""
+    dt: float
+    """Tick of the log [s]."""
+    duration: float
+    """End of the run [s]."""
+    domain: Domain = Domain()
+    """What queries can read of the individuals."""
+
+    def __post_init__(self) -> None:
+        """Refuse what is no timeline, before it is asked.
+
+        Raises:
+            InputError: If a fact is none, or the tick or the duration is no length of time.
+        """
+        for what, time in (("dt", self.dt), ("duration", self.duration)):
+            if not _is_number(time) or not 0 < time < _LONGEST:
+                raise InputError(f"timeline, {what}: a time above 0 s, not {brief(time)}")
+        for number, fact in enumerate(self.facts, start=1):
+            _refuse_no_fact(fact, number)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Timeline):
+            return NotImplemented
+        mine = (self.facts, self.dt, self.duration, self.domain)
+        return mine == (other.facts, other.dt, other.duration, other.domain)
+
+    __hash__ = object.__hash__
+
+    def select(self, *, type: str | None = None, kind: Kind | None = None) -> tuple[Fact, ...]:
+        """Return the facts of one type (either spelling, ``Broken`` or ``broken``), of one kind, or both."""
+        name = None if type is None else type[:1].lower() + type[1:]
+        return tuple(f for f in self.facts if name in (None, f.type) and kind in (None, f.kind))
+
+    def ask(self, goal: str, *, limit: int | None = None, time_limit: float = 10.0) -> list[dict[str, Value]]:
+        """Return the answers to a Prolog goal: ``[]`` means no, ``[{}]`` means yes.
+
+        Args:
+            goal: One goal, such as ``holds(broken(X), T)``; see ``docs/queries.md``.
+            limit: Greatest number of answers that are computed; all when ``None``.
+            time_limit: Time after which the query is stopped [s].
+
+        Returns:
+            For each distinct answer, the values of the goal's variables (those beginning with ``_`` left out).
+
+        Raises:
+            GoalError: If the goal cannot be read, names an unknown predicate or relation, or is not permitted.
+            GoalLimitError: If it used up its time or memory.
+            MissingToolError: If SWI-Prolog is not installed.
+        """
+        from prolepsis.logic.session import shared_session
+
+        return shared_session().ask(self, goal, limit=limit, time_limit=time_limit)
+
+    def to_json(self) -> list[dict[str, Any]]:
+        """Return the facts as plain data, one dictionary each."""
+        return [
+            {
+                "kind": fact.kind,
+                "type": fact.type,
+                "args": list(fact.args),
+                "start": fact.start,
+                "end": fact.end,
+                "evidence": dict(fact.evidence),
+            }
+            for fact in self.facts
+        ]
+
+    @classmethod
+    def from_json(
+        cls, rows: Iterable[Mapping[str, Any]], *, dt: float, duration: float, domain: Domain | None = None
+    ) -> Timeline:
+        """Return the timeline of which ``rows`` are the facts, as ``to_json`` gives them.
+
+        Raises:
+            InputError: If a row is not a fact.
+        """
+        facts = [_read_fact(row, number) for number, row in enumerate(rows, start=1)]
+        return make_timeline(facts, dt=dt, duration=duration, domain=domain)
+
+
+def make_timeline(facts: Iterable[Fact], *, dt: float, duration: float, domain: Domain | None = None) -> Timeline:
+    """Return the timeline of ``facts``: sorted, and maximal.
+
+    Stretches of the same fact that overlap, or are less than half a tick apart, become one. Its evidence
+    keeps, of a number given by several, the greatest, and of a name, the first. A fact within one tick is
+    made one tick long.
+
+    Args:
+        facts: The facts, in any order.
+        dt: Tick of the log [s].
+        duration: End of the run [s].
+        domain: What is known of the individuals.
+
+    Raises:
+        InputError: If a time is not finite, or a fact ends before it starts.
+    """
+    if not _is_number(dt) or not 0 < dt < _LONGEST:
+        raise InputError(f"timeline, dt: a time above 0 s, not {brief(dt)}")
+    facts = tuple(facts)
+    for number, fact in enumerate(facts, start=1):
+        _refuse_no_fact(fact, number)
+    ordered = sorted((_at_least_a_tick(fact, dt) for fact in facts), key=lambda f: (_identity(f), f.start, f.end))
+    maximal = (whole for _, same in groupby(ordered, key=_identity) for whole in _merge(same, dt / 2))
+    by_time = sorted(maximal, key=lambda f: (f.start, f.end, *_identity(f)))
+    return Timeline(facts=tuple(by_time), dt=dt, duration=duration, domain=domain or Domain())
+
+
+def _identity(fact: Fact) -> tuple[str, str, tuple[tuple[bool, Any], ...]]:
+    # Numbers and names do not compare with each other, so numbers are put first.
+    return fact.kind, fact.type, tuple((isinstance(a, str), a) for a in fact.args)
+
+
+def _at_least_a_tick(fact: Fact, dt: float) -> Fact:
+    if not (math.isfinite(fact.start) and math.isfinite(fact.end)) or fact.end < fact.start:
+        raise InputError(f"fact {fact.term}: cannot hold over {fact.start}-{fact.end}; the end must follow the start")
+    if fact.end > fact.start:
+        return fact
+    tick = round(fact.start / dt)
+    return replace(fact, end=(tick + 1) * dt if tick * dt == fact.start else fact.start + dt)
+
+
+def _merge(stretches: Iterable[Fact], gap: float) -> Iterable[Fact]:
+    """Yield the maximal facts of one term from its stretches in order of start."""
+    whole: Fact | None = None
+    for stretch in stretches:
+        if whole is None or stretch.start > whole.end + gap:
+            if whole is not None:
+                yield whole
+            whole = stretch
+        else:
+            evidence = _merged_evidence(whole.evidence, stretch.evidence)
+            whole = replace(whole, end=max(whole.end, stretch.end), evidence=evidence)
+    if whole is not None:
+        yield whole
+
+
+def _merged_evidence(first: Evidence, second: Evidence) -> dict[str, float | str]:
+    merged = dict(first)
+    for name, value in second.items():
+        known = merged.setdefault(name, value)
+        if not isinstance(known, str) and not isinstance(value, str):
+            merged[name] = max(known, value)
+    return merged
+
+
+def _read_fact(row: Any, number: int) -> Fact:
+    """Return the fact that a row of plain data says.
+
+    Raises:
+        InputError: If it is none.
+    """
+    if not isinstance(row, Mapping):
+        raise InputError(f"timeline, fact {number}: not a fact: {brief(repr(row))}")
+    table = cast("Mapping[Any, Any]", row)
+    kind, name, start, end = (table.get(key) for key in ("kind", "type", "start", "end"))
+    args: Any = table.get("args") or ()
+    evidence: Any = table.get("evidence") or {}
+    if not isinstance(kind, str) or kind not in _KINDS:
+        raise InputError(f"timeline, fact {number}: no kind {brief(repr(kind))}; known: fluent, event")
+    if not _is_fact(name, start, end, args, evidence):
+        raise InputError(f"timeline, fact {number}: not a fact: {brief(repr(table))}")
+    return Fact(
+        kind=kind,
+        type=cast(str, name),
+        args=tuple(cast("list[Argument]", args)),
+        start=float(cast(float, start)),
+        end=float(cast(float, end)),
+        evidence=dict(cast("Mapping[str, float | str]", evidence)),
+    )
+
+
+def _refuse_no_fact(fact: Any, number: int) -> None:
+    if not isinstance(fact, Fact):
+        raise InputError(f"timeline, fact {number}: not a fact: {brief(fact)}")
+    if fact.kind not in _KINDS:
+        raise InputError(f"timeline, fact {number}: no kind {brief(fact.kind)}; known: fluent, event")
+    if not _is_fact(fact.type, fact.start, fact.end, fact.args, fact.evidence):
+        raise InputError(f"timeline, fact {number}: not a fact: {brief(fact)}")
+
+
+def _is_fact(name: object, start: object, end: object, args: object, evidence: object) -> bool:
+    return (
+        isinstance(name, str)
+        and _is_number(start)
+        and _is_number(end)
+        and isinstance(args, list | tuple)
+        and all(isinstance(each, str) or _is_number(each) for each in cast("list[Any]", args))
+        and isinstance(evidence, Mapping)
+        and all(isinstance(key, str) for key in cast("Mapping[Any, Any]", evidence))
+        and all(isinstance(each, str) or _is_number(each) for each in cast("Mapping[Any, Any]", evidence).values())
+    )
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < _GREATEST

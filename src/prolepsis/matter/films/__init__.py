@@ -1,0 +1,1 @@
+"""Films that make slippery and that stick."""

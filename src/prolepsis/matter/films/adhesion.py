@@ -1,0 +1,169 @@
+"""What holds two things together where they stick: a joint at a point that gives way when it is pulled too hard.
+
+Pressing them together is left to contact. A pull out of the holder's surface or along it that is stronger than the hold
+takes them apart, unless it is but a jolt.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from prolepsis.geometry.shape import FloatArray
+from prolepsis.geometry.solids import matrix
+from prolepsis.matter.phenomenon import Detachment, Phenomenon
+from prolepsis.scene.running import PointJoint, Running
+
+JOLT = 0.005
+"""A pull counts as its mean over this time [s]: what sticks takes some milliseconds to come off."""
+
+MOST_PRESSED = 2.0
+"""What slides does so while it is pressed together harder than it holds by this factor [1]."""
+
+
+@dataclass(kw_only=True, slots=True)
+class Hold:
+    """One thing that sticks to another."""
+
+    holder: int
+    """Index of the thing that holds."""
+    held: int
+    """Index of the thing that is held."""
+    place: FloatArray
+    """Point where it sticks, in the frame of the held [m], shape (3,)."""
+    normal: FloatArray
+    """Unit vector out of the holder's surface there, in the holder's frame, shape (3,)."""
+    strength: float
+    """Pull at which it comes off at the start [N]."""
+    slides: bool = False
+    """Whether it bears nothing while the two are pressed together hard, and holds on where they are then, as a film."""
+    lasting: float = math.inf
+    """Time in which it loses all but a third of its strength [s]."""
+    since: float = 0.0
+    """When it began [s]."""
+    pull: float = 0.0
+    """Mean pull of late [N]."""
+    loose: bool = False
+    """Whether it slides now, so that no joint holds."""
+    place_on_holder: FloatArray | None = None
+    """The same point in the frame of the holder [m], shape (3,); None until they have been joined."""
+
+    def strength_at(self, time: float) -> float:
+        """Return the pull that it bears at a time [N]."""
+        return self.strength * math.exp(-(time - self.since) / self.lasting)
+
+
+class Adhesion(Phenomenon):
+    """The controller of what sticks together, whatever makes it stick."""
+
+    def __init__(self) -> None:
+        """Begin with nothing that sticks."""
+        self.holds: list[Hold] = []
+        self._joined: list[Hold] = []
+        self._numbers: list[int] = []
+        self._version = -1
+
+    def stick(self, state: Running, holds: Sequence[Hold]) -> None:
+        """Let things stick together where they are now."""
+        if holds:
+            self.holds += holds
+            self._join(state)
+
+    def bind(self, state: Running) -> None:
+        """Make the joints anew: with a body that has fallen apart its joints are gone."""
+        if self.holds and self._version != state.version:
+            self._join(state)
+
+    def act(self, state: Running) -> list[Detachment]:
+        """Take apart what is pulled too hard; nothing breaks by that."""
+        if not self.holds:
+            return []
+        if self._version != state.version:
+            self.bind(state)
+            return []
+        if not self._joined:
+            return []
+        time = float(state.data.time)
+        share = min(1.0, float(state.model.opt.timestep) / JOLT)
+        forces = state.joint_forces()
+        for joint, hold in zip(self._numbers, self._joined, strict=True):
+            if not any(kept is hold for kept in self.holds):
+                continue
+            if hold.slides and self._pressed(state, hold) > MOST_PRESSED * hold.strength:
+                state.data.eq_active[joint] = 0
+                hold.pull, hold.since, hold.loose = 0.0, time, True
+                continue
+            if hold.loose:
+                self._renew(state, hold)
+                state.data.eq_active[joint] = 1
+                hold.loose = False
+            if joint not in forces:
+                continue
+            out = self._turn(state, hold.holder) @ hold.normal
+            force = forces[joint]
+            along = float(force @ out)
+            # What presses them together is no pull.
+            pull = math.hypot(max(along, 0.0), float(np.linalg.norm(force - along * out)))
+            hold.pull += share * (pull - hold.pull)
+            if hold.pull > hold.strength_at(time):
+                state.data.eq_active[joint] = 0
+                self.holds = [kept for kept in self.holds if kept is not hold]
+        self._report(state)
+        return []
+
+    def _pressed(self, state: Running, hold: Hold) -> float:
+        """Return the force with which contact presses the two bodies together [N]."""
+        bodies = {int(state.model.body(self._carrier(state, thing)).id) for thing in (hold.holder, hold.held)}
+        return sum(force for _, a, b, force in state.normal_forces() if {a, b} == bodies)
+
+    def _renew(self, state: Running, hold: Hold) -> None:
+        """Let a hold be where the two things are now, without strain."""
+        hold.place_on_holder = self._seen_from_holder(state, hold)
+        number = next(k for k, joined in enumerate(self._joined) if joined is hold)
+        state.move_joint(self._numbers[number], *self._places(state, hold))
+
+    def _join(self, state: Running) -> None:
+        """Make the joints anew."""
+        for hold in self.holds:
+            if hold.place_on_holder is None:
+                hold.place_on_holder = self._seen_from_holder(state, hold)
+        self._joined = [hold for hold in self.holds if state.carrier[hold.holder] != state.carrier[hold.held]]
+        joints: list[PointJoint] = []
+        for hold in self._joined:
+            first, second = (self._carrier(state, thing) for thing in (hold.holder, hold.held))
+            place, other = self._places(state, hold)
+            joints.append(PointJoint(first=first, second=second, place_on_first=place, place_on_second=other))
+        self._numbers = state.join(joints)
+        for number, hold in zip(self._numbers, self._joined, strict=True):
+            state.data.eq_active[number] = not hold.loose
+        self._version = state.version
+        self._report(state)
+
+    def _report(self, state: Running) -> None:
+        """Tell the log what sticks to what."""
+        pairs = {(int(state.carrier[hold.holder]), int(state.carrier[hold.held])) for hold in self.holds}
+        state.bonds = {(holder, held) for holder, held in pairs if holder != held}
+
+    def _places(self, state: Running, hold: Hold) -> tuple[FloatArray, FloatArray]:
+        """Return the point of a hold in the frames of the two bodies [m]."""
+        assert hold.place_on_holder is not None
+        first, second = state.offsets[hold.holder], state.offsets[hold.held]
+        return (
+            first[:3] + matrix(first[3:]) @ hold.place_on_holder,
+            second[:3] + matrix(second[3:]) @ hold.place,
+        )
+
+    def _carrier(self, state: Running, thing: int) -> str:
+        return state.scene.things[int(state.carrier[thing])].name
+
+    def _turn(self, state: Running, thing: int) -> FloatArray:
+        return state.data.body(self._carrier(state, thing)).xmat.reshape(3, 3) @ matrix(state.offsets[thing, 3:])
+
+    def _seen_from_holder(self, state: Running, hold: Hold) -> FloatArray:
+        things = state.scene.things
+        held, holder = state.pose(things[hold.held].name), state.pose(things[hold.holder].name)
+        world = held[:3] + matrix(held[3:]) @ hold.place
+        return (world - holder[:3]) @ matrix(holder[3:])

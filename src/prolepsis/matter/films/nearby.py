@@ -1,0 +1,42 @@
+"""What solids there are now, and how far points are from them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from prolepsis.geometry.shape import FloatArray
+from prolepsis.geometry.signed_distance import field_of
+from prolepsis.geometry.solids import bounded, matrix
+from prolepsis.scene.running import Running
+
+
+def solids_of(state: Running) -> list[int]:
+    """Return the things that are solid now: the own shape of an intact whole stands for its pieces."""
+    things = state.scene.things
+    return [
+        i
+        for i, thing in enumerate(things)
+        if thing.shape.geoms
+        and (carrier := int(state.carrier[i])) >= 0
+        and (carrier == i or not state.is_body(things[carrier]))
+    ]
+
+
+def touched(state: Running, index: int, places: FloatArray, reach: float) -> bool:
+    """Return whether one of the world points, shape (n, 3), is nearer than ``reach`` [m] to a thing where it is now."""
+    shape = state.scene.things[index].shape
+    pose = state.pose(state.scene.things[index].name)
+    local = (places - pose[:3]) @ matrix(pose[3:])
+    solids = bounded(shape)
+    if len(solids) == len(shape.geoms):
+        low, high = np.array([solid.bounds() for solid in solids]).swapaxes(0, 1)
+        within = (local > low.min(axis=0) - reach) & (local < high.max(axis=0) + reach)
+        local = local[within.all(axis=1)]
+    return bool((field_of(shape).distance(local) < reach).any())
+
+
+def distance_to(state: Running, index: int, places: FloatArray) -> FloatArray:
+    """Return the distance of world points, shape (n, 3), to a thing where it is now [m], shape (n,)."""
+    thing = state.scene.things[index]
+    pose = state.pose(thing.name)
+    return field_of(thing.shape).distance((places - pose[:3]) @ matrix(pose[3:]))

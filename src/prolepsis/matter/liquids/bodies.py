@@ -1,0 +1,166 @@
+"""The rigid bodies of a running simulation as walls: their solids, where they are, and how they have moved."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from prolepsis.geometry.faces import Solids
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.geometry.signed_distance import shifted, solids_as_arrays, union_of
+from prolepsis.matter.liquids.walls import Bodies
+from prolepsis.scene.running import Running
+from prolepsis.system.mujoco import mujoco
+
+FREE_FREEDOMS = 6
+"""Degrees of freedom of a body that moves freely."""
+GREATEST_CHANGE = 20.0
+"""Acceleration with which a body may be taken to go on [m/s^2]."""
+
+
+class WallBodies:
+    """What the particles of a run may touch."""
+
+    def __init__(self, state: Running, lightest: float = 0.0) -> None:
+        """Take the bodies as they are now for where the first step begins.
+
+        Pieces of something broken that weigh less than ``lightest`` [kg] are left out.
+        """
+        self._lightest = lightest
+        self._version = -1
+        self._last = np.zeros((0, 6))
+        self.solids: Solids
+        """The walls of all bodies."""
+        self.ids: IntArray
+        """Their MuJoCo bodies, shape (B,)."""
+        self.refresh(state)
+
+    def refresh(self, state: Running) -> bool:
+        """Look the bodies up in a model that is new, and return whether it was."""
+        if self._version == state.version:
+            return False
+        self._version = state.version
+        things = state.scene.things
+        ids: list[int] = []
+        first = [0]
+        parts: list[Solids] = []
+        for body, carrier in enumerate([int(thing) for thing in state.body_thing]):
+            # A wall that gives way holds liquid by the whole's own shape.
+            panel = carrier >= 0 and "Panel" in things[carrier].roles
+            if carrier < 0 or panel or self._is_shard(state, body, int(carrier)):
+                continue
+            # The own shape of an intact whole stands for its pieces.
+            whole = state.is_body(things[carrier])
+            among: list[int] = [int(carrier)] if whole else np.flatnonzero(state.carrier == carrier).tolist()
+            carried = [i for i in among if things[i].shape.geoms]
+            made = [shifted(solids_as_arrays(things[i].shape), state.offsets[i]) for i in carried]
+            if not made:
+                continue
+            ids.append(body)
+            parts += made
+            first.append(first[-1] + sum(len(solids.kind) for solids in made))
+        self.solids = union_of(parts)
+        self.ids = np.array(ids, dtype=np.int64)
+        self._first = np.array(first, dtype=np.int64)
+        self._position, self._rotation = self._poses(state)
+        self._last = np.zeros((0, 6))
+        self._weigh(state)
+        return True
+
+    def _weigh(self, state: Running) -> None:
+        """Note where the bodies' masses are, and how those that are free and in no hand's grip yield."""
+        model, data = state.model, state.data
+        self._centre = data.xipos[self.ids].copy()
+        self._mobility = np.zeros((len(self.ids), 10))
+        self._inertia = np.zeros((len(self.ids), 10))
+        held = _held(state)
+        for k, body in enumerate(self.ids.tolist()):
+            if model.body_dofnum[body] != FREE_FREEDOMS or body in held:
+                continue
+            turn = data.ximat[body].reshape(3, 3)
+            mass, inertia = model.body_mass[body], model.body_inertia[body]
+            self._mobility[k, 0], self._inertia[k, 0] = 1.0 / mass, mass
+            self._mobility[k, 1:] = ((turn / inertia) @ turn.T).ravel()
+            self._inertia[k, 1:] = ((turn * inertia) @ turn.T).ravel()
+
+    def _is_shard(self, state: Running, body: int, carrier: int) -> bool:
+        pieces = "Piece" in state.scene.things[carrier].roles
+        return pieces and float(state.model.body_mass[body]) < self._lightest
+
+    def _poses(self, state: Running) -> tuple[FloatArray, FloatArray]:
+        # After a step these are a step old.
+        mujoco.mj_kinematics(state.model, state.data)
+        position: FloatArray = state.data.xpos[self.ids].copy()
+        rotation: FloatArray = state.data.xmat[self.ids].copy()
+        return position, rotation
+
+    def moved(self, state: Running, dt: float) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        """Return position, rotation, velocity and spin in the ``dt`` [s] since the last step began, and begin the next.
+
+        The position and rotation are those when it began.
+        """
+        position, rotation = self._poses(state)
+        old_position, old_rotation = self._position, self._rotation
+        self._position, self._rotation = position, rotation
+        self._weigh(state)
+        velocity = (position - old_position) / dt
+        turn = np.einsum("bij,bkj->bik", rotation.reshape(-1, 3, 3), old_rotation.reshape(-1, 3, 3))
+        # Of the small turn between two steps the skew part is the axis times the sine of the angle.
+        skew = np.stack(
+            [turn[:, 2, 1] - turn[:, 1, 2], turn[:, 0, 2] - turn[:, 2, 0], turn[:, 1, 0] - turn[:, 0, 1]], axis=1
+        )
+        spin = skew / (2 * dt)
+        return old_position, old_rotation, *self._carried_on(velocity, spin, dt)
+
+    def _carried_on(self, velocity: FloatArray, spin: FloatArray, dt: float) -> tuple[FloatArray, FloatArray]:
+        """Return the velocities with which bodies that yield go on if the liquid pushes them as before.
+
+        The liquid then changes the velocity that they have next, as it will be, and not the one that they had.
+        """
+        now = np.concatenate([velocity, spin], axis=1)
+        change = np.zeros_like(now)
+        if len(self._last) == len(now):
+            change = (now - self._last) * self.yields[:, None]
+            # A landing is no acceleration that goes on.
+            size = np.linalg.norm(change[:, :3], axis=1, keepdims=True)
+            change *= np.minimum(1.0, GREATEST_CHANGE * dt / np.maximum(size, 1e-12))
+        self._last = now
+        now = now + change
+        return now[:, :3], now[:, 3:]
+
+    def at(self, position: FloatArray, rotation: FloatArray, velocity: FloatArray, spin: FloatArray) -> Bodies:
+        """Return the bodies at given poses and velocities."""
+        return Bodies(
+            first=self._first,
+            rotation=np.ascontiguousarray(rotation),
+            position=np.ascontiguousarray(position),
+            velocity=np.ascontiguousarray(velocity),
+            spin=np.ascontiguousarray(spin),
+            centre=self._centre,
+            mobility=self._mobility,
+            inertia=self._inertia,
+        )
+
+    @property
+    def yields(self) -> BoolArray:
+        """Whether each body gives way to the liquid, shape (B,)."""
+        return self._mobility[:, 0] > 0.0
+
+    def now(self) -> tuple[FloatArray, FloatArray]:
+        """Return position and rotation where the last step ended."""
+        return self._position, self._rotation
+
+    def way(self, state: Running) -> float:
+        """Return how far the fastest body has gone since the last step [m]."""
+        return float(np.linalg.norm(state.data.xpos[self.ids] - self._position, axis=1).max(initial=0.0))
+
+
+def _held(state: Running) -> set[int]:
+    """Return the bodies that touch a jointed one, as an object does the fingers of a hand."""
+    jointed = (state.model.body_dofnum > 0) & (state.model.body_dofnum != FREE_FREEDOMS)
+    contact = state.data.contact
+    active = contact.efc_address >= 0
+    pressed = state.data.efc_force[contact.efc_address[active]] > 0.0
+    bodies: IntArray = state.model.geom_bodyid[contact.geom[active][pressed]].reshape(-1, 2)
+    is_jointed: BoolArray = jointed[bodies]
+    held: IntArray = bodies[~is_jointed & is_jointed[:, ::-1]]
+    return set(held.tolist())

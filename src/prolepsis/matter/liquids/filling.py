@@ -1,0 +1,209 @@
+"""Filling: each liquid becomes a pool of particles, in a container, on a surface, or soaked up by a sponge."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from prolepsis.geometry.shape import FloatArray, Geom, Shape
+from prolepsis.log.things import Thing
+from prolepsis.matter.liquids.basin import Basin, basin_of
+from prolepsis.matter.liquids.liquids import Place
+from prolepsis.matter.liquids.packing import lattice, lowest, relaxed
+from prolepsis.matter.liquids.region import Region, box_of
+from prolepsis.scenario.file import DEFAULT_PARTICLES
+from prolepsis.scenario.scenario import FEWEST_PARTICLES, MOST_PARTICLES
+from prolepsis.scene.placed import Placed, nearest, placed
+from prolepsis.scene.placing import resting_height
+from prolepsis.scene.scene import Pool
+from prolepsis.terms.errors import KnowledgeError
+
+FULL = 1.002
+"""Volume over capacity [1] up to which rounding may go."""
+GRAVITY = 9.81
+"""[m/s^2], for how thick a puddle is."""
+UNEVEN = 0.25
+"""How far from the spacing the ground under a puddle may lie [spacings]."""
+
+
+def fill(
+    liquids: Sequence[Thing],
+    places: Mapping[str, Place],
+    solids: Mapping[str, tuple[Thing, ...]],
+    particles: int = DEFAULT_PARTICLES,
+) -> tuple[tuple[Thing, ...], tuple[Pool, ...]]:
+    """Return the liquids with their masses and positions, and a pool for each.
+
+    Args:
+        liquids: What flows, with density and volume, or the fill of its container.
+        places: Where each of them is.
+        solids: The bodies of each whole, at their poses.
+        particles: Number of particles of the largest liquid.
+
+    Raises:
+        KnowledgeError: If one does not fit where it is, or there are too many or too few particles.
+    """
+    if not liquids:
+        return (), ()
+    basins: dict[str, Basin] = {}
+    for name in sorted({place.host for place in places.values() if place.relation == "contains"}):
+        basins[name] = _basin(name, solids[name])
+    volumes = {each.name: _volume(each, places[each.name], basins) for each in liquids}
+    spacing = (max(volumes.values()) / particles) ** (1 / 3)
+    counts = {name: round(volume / spacing**3) for name, volume in volumes.items()}
+    _refuse_counts(counts, particles)
+    matter = tuple(placed(thing) for each in solids.values() for thing in each if thing.shape.geoms)
+    found: dict[str, FloatArray] = {}
+    for host, basin in basins.items():
+        inside = [each for each in liquids if places[each.name] == Place(relation="contains", host=host)]
+        found |= _poured(basin, inside, volumes, counts, spacing, matter)
+    for each in liquids:
+        place = places[each.name]
+        if place.relation == "on":
+            found[each.name] = _puddle(each, solids[place.host], volumes[each.name], counts[each.name], spacing, matter)
+        elif place.relation == "absorbs":
+            found[each.name] = _soaked(each, solids[place.host], counts[each.name])
+    made = tuple(_settled(each, volumes[each.name], found[each.name]) for each in liquids)
+    pools = tuple(
+        Pool(
+            stuff=each.name,
+            position=found[each.name],
+            spacing=spacing,
+            holder=places[each.name].host if places[each.name].relation == "absorbs" else None,
+        )
+        for each in liquids
+    )
+    return made, pools
+
+
+def _settled(liquid: Thing, volume: float, points: FloatArray) -> Thing:
+    x, y, z = (float(v) for v in points.mean(axis=0))
+    mass = liquid.quantities["density"] * volume
+    return replace(
+        liquid, position=(x, y, z), mass=mass, quantities={**liquid.quantities, "volume": volume, "mass": mass}
+    )
+
+
+def _refuse_counts(counts: Mapping[str, int], particles: int) -> None:
+    total = sum(counts.values())
+    if total > MOST_PARTICLES:
+        raise KnowledgeError(
+            f"particles = {particles} makes {total} particles of all liquids; allowed: at most {MOST_PARTICLES}"
+        )
+    fewest = min(counts, key=lambda name: counts[name])
+    if counts[fewest] < FEWEST_PARTICLES:
+        enough = math.ceil(particles * FEWEST_PARTICLES / max(counts[fewest], 0.5))
+        raise KnowledgeError(
+            f"{fewest} would be {counts[fewest]} particles at particles = {particles}, which are those of the largest "
+            f"liquid; allowed: at least {FEWEST_PARTICLES}, here from particles = {enough} on"
+        )
+
+
+def _basin(name: str, bodies: tuple[Thing, ...]) -> Basin:
+    basin = basin_of(bodies[0]) if bodies and bodies[0].shape.geoms else None
+    if basin is None:
+        raise KnowledgeError(
+            f"{name} contains a liquid at the start, but as it stands it has no cavity that would hold any"
+        )
+    return basin
+
+
+def _volume(liquid: Thing, place: Place, basins: Mapping[str, Basin]) -> float:
+    """Return the volume of a liquid [m^3]."""
+    known = liquid.quantities.get("volume")
+    if known is None and "fill" in liquid.quantities and place.relation == "contains":
+        known = liquid.quantities["fill"] * basins[place.host].capacity
+    if known is None:
+        raise KnowledgeError(f"{liquid.name} ({liquid.kind}) has no volume; state :volume, :mass or :fill")
+    if "density" not in liquid.quantities:
+        raise KnowledgeError(f"{liquid.name} ({liquid.kind}) has no density; state :density")
+    if "viscosity" not in liquid.quantities:
+        raise KnowledgeError(f"{liquid.name} ({liquid.kind}) has no viscosity; state :viscosity")
+    return known
+
+
+def _poured(
+    basin: Basin,
+    liquids: Sequence[Thing],
+    volumes: Mapping[str, float],
+    counts: Mapping[str, int],
+    spacing: float,
+    matter: tuple[Placed, ...],
+) -> dict[str, FloatArray]:
+    """Return the particles of all liquids in one container, the densest at the bottom."""
+    ordered = sorted(liquids, key=lambda each: (-each.quantities["density"], each.name))
+    names = " and ".join(each.name for each in ordered)
+    container = basin.container.name
+    volume, capacity = sum(volumes[each.name] for each in ordered), basin.capacity
+    if volume > FULL * capacity:
+        raise KnowledgeError(
+            f"{names}: {1e6 * volume:.4g} ml are to be in {container}, which holds {1e6 * capacity:.4g} ml as it stands"
+        )
+    level = basin.level(volume)
+    region = Region.of(basin, matter, spacing, level)
+    count = sum(counts[each.name] for each in ordered)
+    points = lowest(region.admits, *box_of(region, basin), count, spacing)
+    if points is None:
+        raise KnowledgeError(
+            f"{names}: the cavity of {container} is too narrow for {count} particles {1e3 * spacing:.2g} mm apart; "
+            f"allowed: more particles"
+        )
+    points = relaxed(points, spacing, region.confine)
+    points = points[np.argsort(points[:, 2], kind="stable")]
+    found: dict[str, FloatArray] = {}
+    start = 0
+    for each in ordered:
+        found[each.name] = points[start : start + counts[each.name]]
+        start += counts[each.name]
+    return found
+
+
+def _puddle(
+    liquid: Thing, under: tuple[Thing, ...], volume: float, count: int, spacing: float, matter: tuple[Placed, ...]
+) -> FloatArray:
+    """Return the particles of a puddle as thick as its surface tension makes it, but no thinner than one layer."""
+    q = liquid.quantities
+    x, y = q.get("x", under[0].position[0]), q.get("y", under[0].position[1])
+    drop = Thing(
+        name=liquid.name,
+        kind=liquid.kind,
+        shape=Shape(geoms=(Geom(type="sphere", size=(spacing / 2, 0.0, 0.0)),)),
+        position=(x, y, 0.0),
+    )
+    ground = resting_height(drop, [thing for thing in under if thing.shape.geoms])
+    length = math.sqrt(q.get("surfaceTension", 0.0) / (q["density"] * GRAVITY))
+    thickness = 2 * length * math.sin(q.get("contactAngle", math.pi / 2) / 2)
+    layers = max(round(thickness / spacing), 1)
+    across = math.ceil(math.sqrt(2 * count / layers)) + 2
+    half = across * spacing / 2
+    region = Region(matter=matter, clearance=0.5 * spacing - UNEVEN * spacing, level=math.inf)
+    low = np.array([x - half, y - half, ground])
+    points = lattice(low, np.array([x + half, y + half, ground + (layers - 0.5) * spacing]), spacing)
+    points = points[region.admits(points)]
+    order = np.argsort(np.hypot(points[:, 0] - x, points[:, 1] - y), kind="stable")[:count]
+    chosen = points[order]
+    bottom = chosen[chosen[:, 2] < ground + 0.5 * spacing]
+    support = nearest([placed(thing) for thing in under if thing.shape.geoms], bottom)
+    if len(chosen) < count or (np.abs(support - 0.5 * spacing) > UNEVEN * spacing).any():
+        area = 1e4 * volume / (layers * spacing)
+        raise KnowledgeError(
+            f"{liquid.name}: {1e6 * volume:.4g} ml would be a puddle of {area:.3g} cm^2 at x = {x:g}, y = {y:g}, where "
+            f"{under[0].whole or under[0].name} is not level so far; allowed: on a level surface, or :contains"
+        )
+    return chosen
+
+
+def _soaked(liquid: Thing, sponge: tuple[Thing, ...], count: int) -> FloatArray:
+    """Return particles spread evenly through a sponge."""
+    matter = placed(sponge[0])
+    step = float(np.prod(matter.high - matter.low) / count) ** (1 / 3)
+    while True:
+        points = lattice(matter.low + step / 2, matter.high, step)
+        points = points[matter.distance(points) < 0]
+        if len(points) >= count:
+            # Every so many, so that no corner is left dry.
+            return points[np.linspace(0, len(points) - 1, count).round().astype(np.int64)]
+        step *= 0.97

@@ -1,0 +1,96 @@
+"""The liquids of a situation: what flows by itself, and where it is told to be at the start."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from prolepsis.geometry.shape import Shape
+from prolepsis.knowledge.knowledge_base import KnowledgeBase
+from prolepsis.log.things import Thing
+from prolepsis.terms.errors import KnowledgeError
+
+RELATIONS = ("contains", "on", "absorbs")
+"""How a liquid is told to be somewhere."""
+COLOURS: Mapping[str, tuple[float, float, float, float]] = {
+    "Water": (0.55, 0.75, 0.92, 0.6),
+    "Coffee": (0.24, 0.14, 0.07, 1.0),
+    "Milk": (0.97, 0.96, 0.93, 1.0),
+    "OliveOil": (0.72, 0.66, 0.16, 0.8),
+    "PancakeBatter": (0.95, 0.87, 0.64, 1.0),
+    "Honey": (0.90, 0.58, 0.10, 0.9),
+}
+"""Colours of liquids, for pictures only."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Place:
+    """Where a liquid is at the start."""
+
+    relation: str
+    """``contains``, ``on`` or ``absorbs``."""
+    host: str
+    """The container, what it lies on, or the sponge."""
+
+
+def is_liquid(kb: KnowledgeBase, name: str) -> bool:
+    """Return whether an individual is a liquid of its own, not the inside of an egg."""
+    return kb.is_a(name, "Liquid") and kb.whole(name) is None
+
+
+def liquid_thing(kb: KnowledgeBase, name: str, roles: frozenset[str]) -> Thing:
+    """Return a liquid as a thing without a body."""
+    quantities = {p: float(k.value) for p, k in kb.quantities(name).items() if isinstance(k.value, float)}
+    kind = kb.kind(name)
+    return Thing(
+        name=name,
+        kind=kind,
+        shape=Shape(colour=COLOURS.get(kind, COLOURS["Water"])),
+        roles=roles,
+        quantities=quantities,
+    )
+
+
+def place_of(kb: KnowledgeBase, name: str) -> Place:
+    """Return where a liquid is told to be.
+
+    Raises:
+        KnowledgeError: If it is told to be nowhere, or in two places.
+    """
+    told = [
+        Place(relation=relation, host=host)
+        for relation in RELATIONS
+        for host in (kb.subjects(relation, name) if relation != "on" else kb.objects_of(relation, name))
+    ]
+    if not told:
+        raise KnowledgeError(
+            f"{name} ({kb.kind(name)}) is nowhere; state what :contains it, what it is :on, or what :absorbs it"
+        )
+    if len(told) > 1:
+        hosts = ", ".join(place.host for place in told)
+        raise KnowledgeError(f"{name} ({kb.kind(name)}) is in several places: {hosts}; name a liquid for each")
+    (place,) = told
+    if place.relation == "absorbs":
+        _refuse_dry(kb, place.host, name)
+    return place
+
+
+def refuse_idle(kb: KnowledgeBase, name: str) -> None:
+    """Refuse a sponge that is told to be soaked without being told with what.
+
+    Raises:
+        KnowledgeError: If it is.
+    """
+    soaked = kb.number(name, "saturation")
+    if soaked and not kb.objects_of("absorbs", name):
+        raise KnowledgeError(f"{name} has the saturation {soaked:g}, but of what? State the liquid that it :absorbs")
+
+
+def _refuse_dry(kb: KnowledgeBase, sponge: str, liquid: str) -> None:
+    kind = kb.kind(sponge)
+    if kb.number(sponge, "absorbentCapacity") is None:
+        raise KnowledgeError(f"{sponge} ({kind}) absorbs {liquid}, but has no absorbentCapacity; state it")
+    if not kb.number(sponge, "saturation"):
+        raise KnowledgeError(f"{sponge} ({kind}) absorbs {liquid}; state its :saturation, above 0 and at most 1")
+    if len(kb.objects_of("absorbs", sponge)) > 1:
+        raise KnowledgeError(f"{sponge} ({kind}) absorbs several liquids at the start; allowed: one")

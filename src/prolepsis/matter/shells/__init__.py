@@ -1,0 +1,1 @@
+"""What has a shell: it breaks, dents and opens."""

@@ -1,0 +1,365 @@
+"""Breaking: a fragile thing is one rigid body until its bonds give way under the forces of contact.
+
+Each substep the contact forces on the body load the bonds of its shell. Overloaded bonds detach, their
+neighbours weaken, the load is redistributed at once (a cascade), and where the graph falls apart the parts
+go on as bodies of their own, which may break again.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from prolepsis.geometry.shape import FloatArray
+from prolepsis.log.things import Thing
+from prolepsis.matter.phenomenon import Detachment, Draw, Phenomenon
+from prolepsis.matter.shells.bond_graph import BondGraph
+from prolepsis.matter.shells.cascade import Cascade, Cracking, Pressing, cascade
+from prolepsis.matter.shells.shell_calibration import calibrated_graph
+from prolepsis.matter.shells.shell_contact import ShellContact
+from prolepsis.matter.shells.shell_dents import ShellDents
+from prolepsis.scene.running import MAX_STEP, Running
+
+CONTACT_STEP = 2.5e-4
+"""Substep [s] while something is near an intact shell: an egg's impact lasts some 1.5 ms, so six substeps."""
+CONTACT_PHASE = 0.66
+"""Greatest phase by which a shell that bounces on its contact goes on in a substep [rad]: that of a light egg, of 50 g,
+at its pole. What is lighter and stiffer takes shorter ones."""
+STEADY_STEP = 2.0
+"""Under one steady contact a substep is longer by this factor [1]: there is no impact to follow, and contact is stable
+below 2 rad. Several contacts are as stiff as all of them together."""
+BETWEEN_SAMPLES = 0.9
+"""Margin of the screen for contacts between its sampled points [1]."""
+LIGHT = 0.2
+"""A fragment that is pressed less than this [N] is not computed: shards break at some newtons."""
+LOOK_TICKS = 4
+"""Under steady forces the loads are computed anew every so many ticks."""
+GROWN = 1.2
+"""So are those of a fragment, whose contacts are never steady, unless its forces have grown by this factor [1]."""
+SLIDING = 1.3
+"""In that time a contact that slides at 0.3 m/s moves by a sixth of its spread; loads rise by less than this [1]."""
+STEADY_CHANGE = 0.02
+"""Contact forces are steady while they change by less than this part of what the screen allows [1] ..."""
+STEADY_WAY = 3.0e-3
+"""... nothing is about to touch: it is farther away than the fastest motion goes in this time, three ticks [s] ..."""
+STEADY_LOAD = 0.8
+"""... and no bond bears more than this part of its strength [1]."""
+
+
+@dataclass(kw_only=True, slots=True)
+class Fragment:
+    """A rigid part of a broken or intact shell."""
+
+    body: str
+    """Name of the rigid body."""
+    graph: BondGraph
+    """Its pieces and bonds."""
+    origin: FloatArray
+    """Place of the body's frame in the shell's frame [m], shape (3,)."""
+    calm: float
+    """Contact forces may add up to this before a bond can break [N]."""
+    load: float = 0.0
+    """Greatest bond load over strength at the last full check [1]."""
+    total: float = 0.0
+    """Sum of the normal forces when it was last looked at [N]."""
+    parts: Sequence[BondGraph] = ()
+    """What it has just fallen apart into."""
+    rows: FloatArray | None = None
+    """All contact forces in the scene at the last full check [N], as MuJoCo lists them."""
+
+    def set(self, parts: Sequence[BondGraph]) -> None:
+        """Go on as what is left: one graph, or several if it has fallen apart."""
+        if len(parts) > 1:
+            self.parts = parts
+        else:
+            self.graph, self.calm = parts[0], _calm(parts[0])
+
+    def is_steady(self, rows: FloatArray) -> bool:
+        """Return whether the contact forces are so near those last checked that no bond can have come to break."""
+        if self.rows is None or self.rows.shape != rows.shape:
+            return False
+        return SLIDING * self.load + float(np.abs(rows - self.rows).sum()) / self.calm < 1
+
+
+class Breaking(Phenomenon):
+    """The controller of one fragile thing."""
+
+    def __init__(self, state: Running, thing: Thing, shell: Thing, breaking_force: float) -> None:
+        """Attach to ``thing``.
+
+        Args:
+            state: The simulation.
+            thing: An intact thing with an ellipsoidal shell.
+            shell: The shell, a part of it.
+            breaking_force: Force between plates at which this very shell breaks [N].
+        """
+        things = state.scene.things
+        names = {t.name: i for i, t in enumerate(things)}
+        self.thing = thing
+        self.shell_name = shell.name
+        self.index = names[thing.name]
+        self._geom, self._number, self._numbered = f"{thing.name}/0", -1, -1
+        self.pieces = [names[part.name] for part in state.scene.parts(shell.name)]
+        self.kernels = [names[part.name] for part in state.scene.parts(thing.name) if "Piece" in part.roles]
+        a, b, c = thing.shape.geoms[0].size
+        quantities = shell.quantities
+        self._cracking = Cracking(
+            weakening=quantities["crackTipWeakening"],
+            bears=quantities["crackedForceShare"] * breaking_force,
+            most_relief=quantities["crackReliefShare"],
+        )
+        graph = calibrated_graph(
+            (a, b, c),
+            len(self.pieces),
+            thickness=quantities["shellThickness"],
+            youngs_modulus=quantities["youngsModulus"],
+            poisson_ratio=quantities["poissonRatio"],
+            fracture_strain=quantities["fractureStrain"],
+            mass=thing.mass,
+            breaking_force=breaking_force,
+            membrane_strength=quantities.get("shellMembraneStrength", 0.0),
+            membrane_stretch=quantities.get("shellMembraneStretch", 1.0),
+        )
+        self.fragments = [Fragment(body=thing.name, graph=graph, origin=np.zeros(3), calm=_calm(graph))]
+        self.intact = True
+        self.load = 0.0
+        """Greatest bond load over strength in the tick [1]; 0 while the screen shows that none can break."""
+        self.force = 0.0
+        """Greatest sum of normal forces on one body in the tick [N]."""
+        self._pressed_most, self._touches = -1, 0
+        self._changed = False
+        self._fresh = True
+        self._ticks = 0
+        self._steady = False
+        self._calm = False
+        self._active = -1
+        self._last: tuple[int, dict[int, float]] = (-1, {})
+        self._version = -1
+        self._watched: dict[int, Fragment] = {}
+        self._contact = ShellContact(state, thing, quantities["plateStiffness"], quantities["poleStiffnessRatio"])
+        self._dents = ShellDents(thing, self._cracking.bears, quantities.get("shellMembraneStretch", 0.0))
+        self._contact.update(state, None)
+        stiffest = 2 * quantities["plateStiffness"] * math.sqrt(quantities["poleStiffnessRatio"])
+        self._contact_step = min(CONTACT_STEP, CONTACT_PHASE * math.sqrt(thing.mass / stiffest))
+
+    def substep(self, state: Running) -> float:
+        """Return the substep that breaking needs now [s], and bring the contact's stiffness up to date."""
+        self._calm = self._steady and self.load < STEADY_LOAD
+        self.force, self.load = 0.0, 0.0
+        self._ticks += 1
+        self._fresh = self._ticks % LOOK_TICKS == 0
+        if not self.intact:
+            return MAX_STEP
+        near = self._near(state)
+        if self._fresh or not self._calm:
+            pressed = near and 0 <= self._pressed_most < state.data.ncon
+            self._contact.update(state, state.data.contact.pos[self._pressed_most] if pressed else None)
+        if not near:
+            return MAX_STEP
+        longer = STEADY_STEP / math.sqrt(self._touches) if self._calm and self._touches else 1.0
+        return self._contact_step * max(longer, 1.0)
+
+    def is_steady(self) -> bool:
+        """Return whether no bond can come to break within a tick, so that its substeps need no look one by one.
+
+        So it is while no contact is new or about to close and the forces hardly change.
+        """
+        return self._calm
+
+    def act(self, state: Running) -> list[Detachment]:
+        """Break what the contact forces of the last substep overload, and return the detached bonds."""
+        if not state.data.ncon:
+            self._steady = False
+            return []
+        if self._version != state.version:
+            self._version = state.version
+            bodies = {f.body: f for f in self.fragments if len(f.graph.bonds)}
+            self._watched = {state.model.body(name).id: fragment for name, fragment in bodies.items()}
+        totals = self._contact_totals(state)
+        self._compare(state, totals)
+        self.force = max(self.force, *totals.values(), 0.0)
+        detached: list[Detachment] = []
+        for body, total in totals.items():
+            fragment = self._watched[body]
+            if total >= fragment.calm and (self.intact or self._fresh or total > GROWN * fragment.total):
+                fragment.total = total
+                detached += self._check(state, body, fragment)
+        self._fresh = False
+        if self.intact and self._dents:
+            self._steady = False
+            through = self._dents.grow(state)
+            if through and not self.fragments[0].parts:
+                detached += self._punch(state, through)
+        if self._changed:
+            self._changed = False
+            state.set_attribute(self.thing.name, "broken", 1.0)
+            state.set_attribute(self.shell_name, "broken", 1.0)
+            self._fall_apart(state)
+        return detached
+
+    def _compare(self, state: Running, totals: dict[int, float]) -> None:
+        """Find out whether the contacts are as they were when last looked at."""
+        count, before = self._last
+        self._last = (self._active, totals)
+        self._steady = self._active == count and totals.keys() == before.keys()
+        if self._steady:
+            self._steady = all(abs(totals[b] - before[b]) < STEADY_CHANGE * self._watched[b].calm for b in totals)
+        if self._steady and self._active < state.data.ncon:
+            contact = state.data.contact
+            way = STEADY_WAY * float(np.abs(state.data.qvel).max())
+            self._steady = bool((contact.dist[contact.efc_address < 0] > way).all())
+
+    def _contact_totals(self, state: Running) -> dict[int, float]:
+        """Return the sum of the normal forces on each body that may break [N], by body."""
+        totals = dict.fromkeys(self._watched, 0.0)
+        self._pressed_most, self._touches, greatest = -1, 0, 0.0
+        if not self.intact:
+            # Shards have many contacts, and nobody asks which of theirs presses most.
+            contact = state.data.contact
+            rows = contact.efc_address[contact.efc_address >= 0]
+            bodies = state.model.geom_bodyid[contact.geom[contact.efc_address >= 0]]
+            self._active = len(rows)
+            sums = np.bincount(bodies.ravel(), np.repeat(state.data.efc_force[rows], 2), state.model.nbody)
+            return {body: float(sums[body]) for body in totals}
+        forces = state.normal_forces()
+        self._active = len(forces)
+        for contact, first, second, force in forces:
+            for body in (first, second):
+                if body in totals:
+                    totals[body] += force
+                    self._touches += 1
+                    if force > greatest:
+                        self._pressed_most, greatest = contact, force
+        return totals
+
+    def _check(self, state: Running, body: int, fragment: Fragment) -> list[Detachment]:
+        """Return what breaks of a fragment that is pressed hard enough to look at its bonds."""
+        if not len(fragment.graph.response):
+            fragment.graph = fragment.graph.assembled()
+            fragment.calm = _calm(fragment.graph)
+        forces = state.data.efc_force
+        # Between looks nothing slides far: if the forces stay, so do the loads.
+        if not self._fresh and fragment.is_steady(forces):
+            self.load = max(self.load, fragment.load)
+            return []
+        pressing = self._pressing(state, body, fragment)
+
+        def shares(relief: float | None = None) -> FloatArray:
+            if not self.intact:
+                return np.ones(len(pressing.normal))
+            return self._dents.shares(state, pressing.numbers, pressing.normal, relief)
+
+        # A crack runs faster than what presses moves: the force falls before that has come any farther.
+        made = self._cascade(fragment.graph, pressing, shares(), shares)
+        fragment.load = made.load
+        fragment.rows = forces.copy()
+        if not made.changed:
+            return []
+        self._changed = True
+        fragment.set(made.parts)
+        if self.intact:
+            eased = made.shares < 1
+            self._dents.begin(state, pressing.numbers[eased], (made.shares * pressing.normal)[eased])
+        return self._detached(made.broken, float(pressing.normal.max()))
+
+    def _cascade(
+        self, graph: BondGraph, pressing: Pressing, shares: FloatArray, ease: Callable[[float], FloatArray]
+    ) -> Cascade:
+        made = cascade(graph, pressing, self._cracking, shares, ease)
+        self.load = max(self.load, made.worst)
+        return made
+
+    def _punch(self, state: Running, points: Sequence[FloatArray]) -> list[Detachment]:
+        """Let the pieces at points [m] come loose: they are pressed in farther than the membrane stretches.
+
+        What pressed on them now presses on the rest.
+        """
+        fragment = self.fragments[0]
+        graph, body = fragment.graph, state.data.body(fragment.body)
+        places = (np.array(points) - body.xpos) @ body.xmat.reshape(3, 3) + fragment.origin
+        pieces = np.linalg.norm(graph.centres - places[:, None], axis=2).argmin(axis=1)
+        cracking = graph.round_pieces(pieces) & ~graph.cracked
+        cracked = graph.after_breaking(cracking, self._cracking.weakening)
+        parts = cracked.without(cracked.round_pieces(pieces)).fragments()
+        rest = max(parts, key=lambda part: len(part.nodes))
+        pressing = self._pressing(state, body.id, fragment)
+        all_of_it = np.ones(len(pressing.normal))
+        made = self._cascade(rest.assembled(), pressing, all_of_it, lambda _: all_of_it)
+        self._changed = True
+        fragment.set((*(part for part in parts if part is not rest), *made.parts))
+        return self._detached([*graph.joined(cracking), *made.broken], self.force)
+
+    def _pressing(self, state: Running, body: int, fragment: Fragment) -> Pressing:
+        """Return what presses on a fragment."""
+        contacts = state.contact_forces()
+        second = contacts.bodies[:, 1] == body
+        chosen = second | (contacts.bodies[:, 0] == body)
+        turn = state.data.body(fragment.body).xmat.reshape(3, 3)
+        sign = np.where(second[chosen], 1.0, -1.0)[:, None]
+        return Pressing(
+            numbers=contacts.numbers[chosen],
+            points=(contacts.points[chosen] - state.data.body(fragment.body).xpos) @ turn + fragment.origin,
+            forces=sign * contacts.force[chosen] @ turn,
+            normal=contacts.normal_force[chosen],
+        )
+
+    def _detached(self, broken: Sequence[tuple[int, int]], force: float) -> list[Detachment]:
+        return [Detachment(thing=self.index, a=self.pieces[a], b=self.pieces[b], force=force) for a, b in broken]
+
+    def _fall_apart(self, state: Running) -> None:
+        """Give the parts of a graph that is no longer connected bodies of their own."""
+        new: list[Fragment] = []
+        for fragment in self.fragments:
+            parts = fragment.parts
+            if not parts:
+                new.append(fragment)
+                continue
+            groups = [[self.pieces[int(k)] for k in part.nodes] for part in parts]
+            # What is firm inside goes on as a body of its own.
+            firm = [[kernel] for kernel in self.kernels] if self.intact else []
+            state.split(fragment.body, groups + firm)
+            self.intact = False
+            for part, group in zip(parts, groups, strict=True):
+                lead = state.scene.things[group[0]].name
+                calm = LIGHT if len(part.bonds) else math.inf
+                new.append(Fragment(body=lead, graph=part, origin=part.centres[0].copy(), calm=calm))
+        self.fragments = new
+
+    def _near(self, state: Running) -> bool:
+        """Return whether anything is near the intact thing."""
+        if not state.data.ncon:
+            return False
+        if self._numbered != state.version:
+            self._numbered, self._number = state.version, int(state.model.geom(self._geom).id)
+        return any(self._number in pair for pair in state.touching())
+
+
+def _calm(graph: BondGraph) -> float:
+    """Return a contact force below which no bond can break, wherever it acts: the screen before the full check [N].
+
+    The stress under several forces is at most the sum of the stresses under each alone, in whatever direction it
+    pulls, so the greatest stress under a unit force at sampled points bounds them all.
+    """
+    if not len(graph.bonds):
+        return math.inf
+    points = np.concatenate([graph.centres, graph.centres[graph.bonds].mean(axis=1)])
+    wrenches = np.moveaxis(graph.wrenches_per_force(points), 0, 1).reshape(6 * len(graph.nodes), -1)
+    components = (graph.response @ wrenches).reshape(len(graph.bonds), 6, len(points), 3)
+    return float(BETWEEN_SAMPLES / graph.ratios(np.linalg.norm(components, axis=3).transpose(2, 0, 1)).max())
+
+
+def attach(state: Running, draw: Draw) -> list[Breaking]:
+    """Return a controller for each breakable thing whose shell is known."""
+    made: list[Breaking] = []
+    for thing in state.scene.things:
+        if "Breakable" not in thing.roles or thing.whole is not None:
+            continue
+        for part in state.scene.parts(thing.name):
+            known = part.quantities
+            if "breakingForce" in known and "shellThickness" in known:
+                force = draw.value(known["breakingForce"], known.get("breakingForceDeviation", 0.0))
+                made.append(Breaking(state, thing, part, force))
+    return made

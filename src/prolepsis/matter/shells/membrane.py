@@ -1,0 +1,96 @@
+"""The membrane of a yolk holds it together, until it is stretched too much and the yolk runs out.
+
+The particles of an intact yolk are drawn towards the shape that they had in the egg, turned and moved as they are now:
+so it flattens where it lands, and springs back.
+
+Source:
+    Müller, Heidelberger, Teschner and Gross, Meshless deformations based on shape matching, SIGGRAPH (2005).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from prolepsis.geometry.shape import FloatArray, IntArray
+from prolepsis.log.log import FREE
+from prolepsis.log.things import Thing
+from prolepsis.matter.phenomenon import Detachment, Draw, Phenomenon
+from prolepsis.scene.running import MAX_STEP, Running
+
+WOBBLE = 40.0
+"""Angular frequency with which a yolk quivers [rad/s]: under its weight it sinks by g / w^2, a fifth of its height."""
+
+
+def attach(state: Running, draw: Draw) -> Sequence[Phenomenon]:
+    """Return a controller for each stuff that has a membrane."""
+    if state.particles is None:
+        return []
+    return [
+        Membrane(state, thing, draw.value(thing.quantities["membraneForce"], 0.0))
+        for thing in state.scene.things
+        if {"membraneForce", "probeRadius"} <= thing.quantities.keys()
+    ]
+
+
+class Membrane(Phenomenon):
+    """The controller of one yolk."""
+
+    def __init__(self, state: Running, thing: Thing, force: float) -> None:
+        """Attach to a stuff whose membrane a probe punctures with a force [N]."""
+        assert state.particles is not None
+        self._thing = thing
+        self._index = state.scene.index(thing.name)
+        own = np.flatnonzero(state.particles.stuff == self._index)
+        self._first, last = int(own[0]), int(own[-1])
+        # As a slice they are reached ten times faster.
+        self._own: IntArray | slice = slice(self._first, last + 1) if len(own) == last + 1 - self._first else own
+        places = state.particles.position[self._own]
+        self._rest = places - places.mean(axis=0)
+        self._places, self._push = np.zeros_like(places), np.zeros_like(places)
+        self.strength = force / (2 * math.pi * thing.quantities["probeRadius"])
+        """Tension at which it tears: the probe's force over its rim [N/m]."""
+        self.tension = 0.0
+        """Tension round the yolk [N/m]."""
+        self.broken = False
+        self._news: list[Detachment] = []
+
+    def act(self, state: Running) -> list[Detachment]:
+        """Return that it has torn, once."""
+        del state
+        news, self._news = self._news, []
+        return news
+
+    def tick(self, state: Running) -> None:
+        """Hold the yolk together, or tear."""
+        particles = state.particles
+        if self.broken or particles is None or particles.holder[self._first] != FREE:
+            return
+        places = particles.position[self._own].copy()
+        if np.array_equal(places, self._places):
+            # A step of the liquid takes several ticks.
+            particles.velocity[self._own] += self._push
+            return
+        middle = places.mean(axis=0)
+        pull = WOBBLE**2 * (middle + self._rest @ _turn(self._rest, places - middle).T - places)
+        mass = particles.mass[self._own]
+        # Halves of the yolk pull on each other through the membrane round its middle.
+        force = float(mass @ np.linalg.norm(pull, axis=1)) / 2
+        volume = float(particles.volume[self._own].sum())
+        self.tension = force / (2 * math.pi * (3 * volume / (4 * math.pi)) ** (1 / 3))
+        if self.tension > self.strength:
+            self.broken = True
+            state.set_attribute(self._thing.name, "broken", 1.0)
+            self._news.append(Detachment(thing=self._index, a=self._index, b=self._index, force=force))
+            return
+        self._places, self._push = places, MAX_STEP * pull
+        particles.velocity[self._own] += self._push
+
+
+def _turn(rest: FloatArray, now: FloatArray) -> FloatArray:
+    """Return the rotation that brings one set of points nearest to another, both about their middle, shape (3, 3)."""
+    u, _, v = np.linalg.svd(now.T @ rest)
+    u[:, 2] *= np.sign(np.linalg.det(u @ v))
+    return u @ v

@@ -1,0 +1,87 @@
+"""What has a breakable ellipsoidal shell: its parts as things - shell, stuffs, a firm kernel, pieces of the shell."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from prolepsis.geometry.shape import Geom, Shape
+from prolepsis.knowledge.knowledge_base import KnowledgeBase
+from prolepsis.log.things import Thing
+from prolepsis.matter.shells.egg_things import egg_things, room_within
+from prolepsis.terms.errors import KnowledgeError
+
+SLENDEREST, FLATTEST = 0.5, 2.0
+"""Least and greatest breadth over length of a shell that is cut into pieces [1]."""
+STUFFS = {"EggYolk": (0.98, 0.72, 0.08, 1.0), "EggWhite": (0.93, 0.93, 0.82, 0.75), "Liquid": (0.86, 0.90, 0.90, 0.6)}
+"""What flows out of a shell, from the middle outwards, and its colour, for pictures only."""
+KERNELS = {"ChocolateKernel": (0.30, 0.17, 0.10, 1.0), "Kernel": (0.97, 0.96, 0.90, 1.0)}
+"""Firm kernels and their colour, for pictures only."""
+
+
+def shelled_things(kb: KnowledgeBase, whole: Thing, roles: Callable[[str], frozenset[str]]) -> tuple[Thing, ...]:
+    """Return a whole with a shell and its parts, in that order.
+
+    Args:
+        kb: The situation.
+        whole: The whole at its place, an ellipsoid.
+        roles: Roles of an individual.
+
+    Raises:
+        KnowledgeError: If it cannot be simulated.
+    """
+    shells = [part for part in kb.parts(whole.name) if kb.is_a(part, "Shell")]
+    if len(shells) != 1:
+        raise KnowledgeError(f"{whole.name} has {len(shells)} shells, needed: 1")
+    if len(whole.shape.geoms) != 1 or whole.shape.geoms[0].type != "ellipsoid":
+        raise KnowledgeError(f"{whole.name} has a shell, so its shape must be ellipsoid")
+    half_length, _, half_breadth = whole.shape.geoms[0].size
+    if not SLENDEREST <= half_breadth / half_length <= FLATTEST:
+        size = f"{2 * half_length:g} m long and {2 * half_breadth:g} m broad"
+        allowed = f"{SLENDEREST:g} to {FLATTEST:g} times the length"
+        raise KnowledgeError(f"{whole.name} is {size}; allowed: a breadth of {allowed}")
+    if "BrokenThing" in kb.classes(whole.name):
+        raise KnowledgeError(f"{whole.name} is broken at the start; only whole ones can be simulated")
+    parts = [_part(kb, part, whole, roles(part)) for part in kb.parts(whole.name)]
+    shell = next(part for part in parts if part.name == shells[0])
+    inside = [part for part in parts if part is not shell]
+    stuffs = [
+        replace(part, shape=Shape(colour=STUFFS[cls]))
+        for cls in STUFFS
+        for part in inside
+        if next((known for known in STUFFS if kb.is_a(part.name, known)), None) == cls
+    ]
+    kernels = [_kernel(kb, part, whole, shell) for part in inside if kb.is_a(part.name, "Kernel")]
+    if len(kernels) > 1 or (kernels and stuffs):
+        names = ", ".join(part.name for part in (*kernels, *stuffs))
+        raise KnowledgeError(f"{whole.name} has {names} inside; allowed: liquids, or one kernel")
+    # What touches the world is the shell, so the whole is as slippery as that.
+    slippery = replace(whole, quantities={**whole.quantities, "friction": shell.quantities["friction"]})
+    return egg_things(slippery, shell, (*stuffs, *kernels))
+
+
+def _part(kb: KnowledgeBase, name: str, whole: Thing, roles: frozenset[str]) -> Thing:
+    quantities = {p: float(k.value) for p, k in kb.quantities(name).items() if isinstance(k.value, float)}
+    deviations = {
+        f"{p}Deviation": float(k.deviation) for p, k in kb.quantities(name).items() if getattr(k, "deviation", None)
+    }
+    return Thing(
+        name=name,
+        kind=kb.kind(name),
+        position=whole.position,
+        orientation=whole.orientation,
+        mass=quantities.get("mass", 0.0),
+        whole=whole.name,
+        roles=roles - {"Breakable", "Container"},
+        quantities={**quantities, **deviations},
+    )
+
+
+def _kernel(kb: KnowledgeBase, part: Thing, whole: Thing, shell: Thing) -> Thing:
+    """Return the kernel: hidden in the shell as its pieces are, and drawn in by what the flat pieces take up."""
+    a, b, c = (float(v) for v in room_within(whole, shell) * np.asarray(whole.shape.geoms[0].size))
+    colour = next(KERNELS[cls] for cls in KERNELS if kb.is_a(part.name, cls))
+    shape = Shape(geoms=(Geom(type="ellipsoid", size=(a, b, c)),), colour=colour)
+    return replace(part, shape=shape, roles=part.roles | {"Piece"})

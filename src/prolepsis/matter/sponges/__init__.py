@@ -1,0 +1,1 @@
+"""Sponges: they absorb, drip and are pressed out."""

@@ -1,0 +1,1 @@
+"""Walls that yield: bowls of paper and clay."""

@@ -1,0 +1,295 @@
+"""The scenario: a situation, a plan with its parameters, and what else one run is told.
+
+A scenario file is TOML; it is checked here, at the edge, and is a frozen value from then on.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from prolepsis.knowledge import KnowledgeBase
+from prolepsis.knowledge.situation import MOST_INDIVIDUALS
+from prolepsis.knowledge.turtle import Document, parse_turtle
+from prolepsis.scenario.file import DEFAULT_PARTICLES, ParameterTable, read_file, read_robot
+from prolepsis.scenario.own_robot import OwnRobot
+from prolepsis.system.text_files import is_file, path_of
+from prolepsis.terms.errors import InputError, PlanError, ScenarioError, UnknownNameError, brief, brief_list
+from prolepsis.terms.terms import PARTIAL_LIST, Term, Value, Variable, parse_term
+from prolepsis.terms.units import read_quantity, si_symbol, to_float, to_si, unit_of
+
+FEWEST_PARTICLES, MOST_PARTICLES = 20, 200_000
+"""Fewer are no liquid; more would take gigabytes of log, and days."""
+LONGEST = 86_400.0
+"""Longest duration [s]: a day."""
+LARGEST_SEED = 2**63 - 1
+"""Larger ones are no whole numbers to most programs that read the saved scenario."""
+ROBOTS: Mapping[str, Path | None] = {
+    "hand": None,
+    **{file.stem: file for file in sorted((Path(__file__).parent.parent / "knowledge" / "robots").glob("*.ttl"))},
+}
+"""Robots that a scenario may name, with what each adds to the situation: a hand is declared there by who wants one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """What a variable of the plan stands for."""
+
+    value: float | str
+    """A number in SI units, or the name of an individual of the knowledge base, ``force7``."""
+    unit: str | None = None
+    """SI unit of a number; None for a pure number or a name."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Scenario:
+    """Everything that one run is told. The same scenario gives the same bytes."""
+
+    path: Path
+    """The scenario file; for one made in Python, where its relative paths start."""
+    situation: tuple[Path, ...]
+    """Turtle files."""
+    plan: Value
+    """What the robot does, with variables."""
+    parameters: Mapping[str, Parameter] = field(default_factory=dict[str, Parameter])
+    """Value of each variable of the plan."""
+    knowledge: Mapping[str, float | str] = field(default_factory=dict[str, "float | str"])
+    """Values of the knowledge base that are replaced, ``{"eggshell3.friction": 0.4}``."""
+    robot: str | OwnRobot | None = None
+    """Robot that is added to the situation: one of ``ROBOTS`` or the user's own; None if the situation has all that it
+    needs."""
+    duration: float | None = None
+    """Simulated time [s]; None for the plan's length plus settling."""
+    seed: int = 0
+    """Seed of every random draw."""
+    draw: bool = False
+    """Whether uncertain strengths are drawn from their distributions; if not, each is its mean."""
+    particles: int = DEFAULT_PARTICLES
+    """Number of particles of the largest liquid; those of the others are as large."""
+    monitors: Mapping[str, tuple[str, ...]] = field(default_factory=dict[str, "tuple[str, ...]"])
+    """What is logged of a thing instead of the usual, ``{"egg1": ("load", "speed")}``."""
+
+    def __post_init__(self) -> None:
+        """Refuse a scenario that cannot be run."""
+        if self.duration is not None and not 0.0 < self.duration <= LONGEST:
+            raise ScenarioError(
+                f"{self.path}: duration must be a finite number of seconds greater than 0 and at most {LONGEST:,.0f}, "
+                f"not {self.duration:g}"
+            )
+        if not 0 <= self.seed <= LARGEST_SEED:
+            raise ScenarioError(f"{self.path}: seed = {brief(self.seed)}: allowed: 0 to {LARGEST_SEED}")
+        if not FEWEST_PARTICLES <= self.particles <= MOST_PARTICLES:
+            raise ScenarioError(
+                f"{self.path}: particles = {brief(self.particles)}: allowed: {FEWEST_PARTICLES} to {MOST_PARTICLES}"
+            )
+        if isinstance(self.robot, str) and self.robot not in ROBOTS:
+            raise UnknownNameError.of("robot", self.robot, ROBOTS, f"{self.path}: robot")
+        for name, parameter in self.parameters.items():
+            if isinstance(parameter.value, float) and not math.isfinite(parameter.value):
+                raise ScenarioError(f"{self.path}: parameter {brief(name)} must be finite, not {parameter.value}")
+        used = sorted(set(variables(self.plan)))
+        missing = [name for name in used if name not in self.parameters]
+        if missing:
+            raise ScenarioError(
+                f"{self.path}: the plan's variable {brief(missing[0])} has no value; give it under [parameters]; "
+                f"given: {brief_list(sorted(self.parameters))}"
+            )
+        unused = [name for name in sorted(self.parameters) if name not in used]
+        if unused:
+            raise ScenarioError(
+                f"{self.path}: the plan has no variable {brief(unused[0])}, which [parameters] gives; "
+                f"variables of the plan: {brief_list(used)}"
+            )
+
+    @classmethod
+    def load(cls, path: Path | str, settings: Mapping[str, str | float] | None = None) -> Scenario:
+        """Return the scenario in the TOML file at ``path``.
+
+        Args:
+            path: The file. Situations are found relative to it.
+            settings: ``NAME -> VALUE`` as ``--set`` gives them: parameters in their own unit, without regard
+                to case, and knowledge values named ``individual.property``.
+
+        Raises:
+            ScenarioError: If the file is missing or wrong.
+            PlanError: If the plan cannot be read.
+            UnknownNameError: If a setting names no parameter.
+        """
+        path = path_of(path, "scenario", ScenarioError)
+        content = read_file(path)
+        files = [content.situation] if isinstance(content.situation, str) else content.situation
+        situation = tuple(path.parent / name for name in files)
+        for file in situation:
+            if not is_file(file):
+                raise ScenarioError(f"{path}: situation: there is no file {brief(file)}")
+        scenario = cls(
+            path=path,
+            situation=situation,
+            plan=_plan(content.plan, path),
+            parameters={n: _parameter(v, f"{path}: parameter {n}") for n, v in content.parameters.items()},
+            knowledge={n: _plain(v) for n, v in content.knowledge.items()},
+            robot=read_robot(content.robot, str(path)) if isinstance(content.robot, dict) else content.robot,
+            duration=None if content.duration is None else to_float(content.duration),
+            seed=content.seed,
+            draw=content.draw,
+            particles=content.particles,
+            monitors={n: tuple(names) for n, names in content.monitors.items()},
+        )
+        return scenario.with_settings(settings or {})
+
+    def with_settings(self, settings: Mapping[str, str | float]) -> Scenario:
+        """Return the scenario with other values of parameters, of the knowledge base, of ``particles`` or ``seed``.
+
+        Raises:
+            UnknownNameError: If a setting names no parameter.
+            ScenarioError: If a value has the wrong unit.
+        """
+        if not all(map(_is_setting, settings.items())):
+            raise ScenarioError(
+                f"{self.path}: settings are numbers or texts by name, as {{'Force': 5.0}}, not {brief(settings)}"
+            )
+        parameters, knowledge = dict(self.parameters), dict(self.knowledge)
+        numbers = {"particles": self.particles, "seed": self.seed}
+        for name, value in settings.items():
+            if "." in name:
+                knowledge[name] = _plain(value)
+                continue
+            match = [known for known in parameters if known == name] or [
+                known for known in parameters if known.lower() == name.lower()
+            ]
+            if not match and name in numbers:
+                numbers[name] = _whole(value, f"{self.path}: {name} = {brief(value)}")
+                continue
+            if len(match) != 1:
+                raise UnknownNameError.of("parameter", name, parameters, where=str(self.path))
+            parameters[match[0]] = _setting(value, parameters[match[0]], f"{self.path}: {match[0]} = {brief(value)}")
+        return replace(self, parameters=parameters, knowledge=knowledge, **numbers)
+
+    def knowledge_base(self) -> KnowledgeBase:
+        """Return the knowledge base of the situation, with this scenario's values.
+
+        Raises:
+            UnknownNameError: If a parameter or a knowledge value names nothing that is there.
+        """
+        base = KnowledgeBase.load(*self._robot_sources(), *self.situation, most=MOST_INDIVIDUALS)
+        for name, parameter in self.parameters.items():
+            if isinstance(parameter.value, str) and parameter.value not in base.individuals:
+                raise UnknownNameError.of(
+                    "individual", parameter.value, base.individuals, f"{self.path}: parameter {name}"
+                )
+        return base.with_values(self.knowledge) if self.knowledge else base
+
+    def _robot_sources(self) -> list[Path | Document]:
+        """Return what says that the robot is there."""
+        if isinstance(self.robot, OwnRobot):
+            # These lines are in no file.
+            return [replace(parse_turtle(self.robot.statements(self.path), self.path), lines={})]
+        file = ROBOTS.get(self.robot or "")
+        return [] if file is None else [file]
+
+    def bound_plan(self) -> Value:
+        """Return the plan with each variable replaced by its number (SI) or the name of its individual."""
+        return bind(self.plan, {name: parameter.value for name, parameter in self.parameters.items()})
+
+
+def variables(value: Value) -> Iterator[str]:
+    """Yield the names of the variables in ``value``, as often as they occur."""
+    for each in _within(value):
+        if isinstance(each, Variable):
+            yield each.name
+
+
+def _within(value: Value) -> Iterator[Value]:
+    """Yield ``value`` and all that it is made of."""
+    waiting = [value]
+    while waiting:
+        each = waiting.pop()
+        yield each
+        if isinstance(each, Term):
+            waiting += each.args
+        elif isinstance(each, tuple):
+            waiting += each
+
+
+def bind(value: Value, values: Mapping[str, float | str]) -> Value:
+    """Return ``value`` with its variables replaced."""
+    if isinstance(value, Variable):
+        return values[value.name]
+    if isinstance(value, Term):
+        return Term(value.functor, tuple(bind(argument, values) for argument in value.args))
+    if isinstance(value, tuple):
+        return tuple(bind(item, values) for item in value)
+    return value
+
+
+def _plan(text: str, path: Path) -> Value:
+    try:
+        plan = parse_term(text, where=f"{path}: plan")
+    except InputError as error:
+        raise PlanError(str(error)) from error
+    for each in _within(plan):
+        if isinstance(each, Term) and each.functor == PARTIAL_LIST:
+            raise PlanError(f"{path}: plan: [A|B] is no list of actions or numbers; write all of it, [A, B]")
+    return plan
+
+
+def _parameter(value: float | str | ParameterTable, where: str) -> Parameter:
+    if isinstance(value, ParameterTable):
+        return _quantity(to_float(value.value), value.unit, where)
+    if isinstance(value, str):
+        read = read_quantity(value)
+        return Parameter(value) if read is None else _quantity(*read, where)
+    return Parameter(to_float(value))
+
+
+def _quantity(number: float, unit: str, where: str) -> Parameter:
+    try:
+        symbol = si_symbol(unit_of(unit))
+        return Parameter(to_si(number, unit), None if symbol == "1" else symbol)
+    except InputError as error:
+        raise ScenarioError(f"{where}: {error}") from error
+
+
+def _setting(value: str | float, old: Parameter, where: str) -> Parameter:
+    read = read_quantity(value) if isinstance(value, str) else (to_float(value), "")
+    if read is None:
+        return Parameter(str(value))
+    number, unit = read
+    if not unit:
+        return Parameter(number, old.unit)
+    new = _quantity(number, unit, where)
+    if old.unit is not None and new.unit != old.unit:
+        raise ScenarioError(f"{where}: unit {brief(repr(unit))} does not fit: a unit such as {old.unit!r} is needed")
+    return new
+
+
+def _whole(value: str | float, where: str) -> int:
+    if isinstance(value, bool):
+        raise ScenarioError(f"{where}: must be a whole number")
+    try:
+        # Beyond 2^53 a float is not every whole number.
+        return int(value) if isinstance(value, str) and value.strip().isdigit() else _whole_float(value)
+    except ValueError:
+        raise ScenarioError(f"{where}: must be a whole number") from None
+
+
+def _whole_float(value: str | float) -> int:
+    number = to_float(float(value) if isinstance(value, str) else value)
+    if not number.is_integer():
+        raise ValueError(number)
+    return int(number)
+
+
+def _plain(value: bool | float | str) -> float | str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return value
+    return to_float(value)
+
+
+def _is_setting(item: tuple[object, object]) -> bool:
+    name, value = item
+    return isinstance(name, str) and isinstance(value, str | int | float)

@@ -1,0 +1,141 @@
+"""A running scene, as those see it who act in it: robots and kinds of matter. The engine has it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from prolepsis.geometry.shape import FloatArray, IntArray, Quaternion, Triple
+from prolepsis.log.things import Thing
+from prolepsis.scene.particles import ParticleState
+from prolepsis.scene.scene import Scene
+
+MAX_STEP = 1.0e-3
+"""Longest substep [s]: with nothing going on."""
+
+
+@dataclass(kw_only=True, slots=True)
+class ContactForces:
+    """Active contacts of the last substep; c contacts."""
+
+    numbers: IntArray
+    """Their numbers, shape (c,)."""
+    geoms: IntArray
+    """The two geoms, shape (c, 2)."""
+    bodies: IntArray
+    """Their bodies, shape (c, 2)."""
+    normal_force: FloatArray
+    """[N], shape (c,)."""
+    force: FloatArray
+    """Force on the second geom's body, world frame [N], shape (c, 3)."""
+    points: FloatArray
+    """World frame [m], shape (c, 3)."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class PointJoint:
+    """Two bodies that are held together at a point."""
+
+    first: str
+    second: str
+    place_on_first: FloatArray
+    """The point in the frame of the first body [m], shape (3,)."""
+    place_on_second: FloatArray
+    """The point in the frame of the second body [m], shape (3,)."""
+
+
+class Running(Protocol):
+    """The one mutable thing of a run: its model and data, who carries whom, and what has changed of things."""
+
+    spec: Any
+    """The ``mujoco.MjSpec`` of the world as it is now."""
+    model: Any
+    """The ``mujoco.MjModel``; another one after each rebuild."""
+    data: Any
+    """The ``mujoco.MjData``."""
+    version: int
+    """Counts the rebuilt models."""
+    carrier: IntArray
+    """Index of the thing that carries each thing, -1 for none, shape (n,)."""
+    offsets: FloatArray
+    """Pose of each thing in its carrier's frame, shape (n, 7)."""
+    body_thing: IntArray
+    """Index of the thing that each MuJoCo body is, -1 for none, shape (nbody,)."""
+    particles: ParticleState | None
+    """All particles, if there are any."""
+    bonds: set[tuple[int, int]]
+    """What sticks to what now: indices of the holding and the held thing."""
+
+    @property
+    def scene(self) -> Scene:
+        """What the run began with."""
+        ...
+
+    def is_body(self, thing: Thing) -> bool:
+        """Return whether a thing is a rigid body of its own at the start."""
+        ...
+
+    def attribute(self, name: str, attribute: str) -> float:
+        """Return an attribute of a thing: as changed in this run, as known at the start, or 0."""
+        ...
+
+    def set_attribute(self, name: str, attribute: str, value: float) -> None:
+        """Change an attribute of a thing."""
+        ...
+
+    def set_friction(self, index: int, friction: float) -> None:
+        """Give a thing's surface another sliding friction [1], for the rest of the run."""
+        ...
+
+    def pose(self, name: str) -> FloatArray:
+        """Return where a thing is and how it is turned, shape (7,); one that is no body any more is as at the start."""
+        ...
+
+    def place(self, name: str) -> Triple:
+        """Return where a thing is in the world [m]."""
+        ...
+
+    def orientation(self, name: str) -> Quaternion:
+        """Return how a thing is turned in the world, a unit quaternion (w, x, y, z)."""
+        ...
+
+    def velocity(self, name: str) -> FloatArray:
+        """Return the velocity of a thing's carrier [m/s], shape (3,); zeros if it has none."""
+        ...
+
+    def velocity_at(self, body: str, point: FloatArray) -> FloatArray:
+        """Return the velocity of a point of a MuJoCo body in the world [m/s], shape (3,)."""
+        ...
+
+    def normal_forces(self) -> list[tuple[int, int, int, float]]:
+        """Return contact number, both bodies and normal force [N] of each active contact of the last substep."""
+        ...
+
+    def touching(self) -> list[list[int]]:
+        """Return both geoms of each contact of the last substep, active or not."""
+        ...
+
+    def pressing(self, first: str, second: str) -> float:
+        """Return the normal force between two wholes, their parts included, at the last substep [N]."""
+        ...
+
+    def contact_forces(self) -> ContactForces:
+        """Return the active contacts of the last substep."""
+        ...
+
+    def split(self, body_name: str, fragments: Sequence[Sequence[int]]) -> None:
+        """Replace one rigid body by several that move on as its parts did."""
+        ...
+
+    def join(self, joints: Sequence[PointJoint]) -> list[int]:
+        """Hold bodies together at points, and return the numbers of the joints."""
+        ...
+
+    def move_joint(self, number: int, place_on_first: FloatArray, place_on_second: FloatArray) -> None:
+        """Let a joint hold other points of its bodies together [m]."""
+        ...
+
+    def joint_forces(self) -> dict[int, FloatArray]:
+        """Return the force of each active joint at a point on its first body, world frame [N], by its number."""
+        ...
