@@ -53,18 +53,23 @@ def main() -> int:
     with ProcessPoolExecutor(given.jobs) as pool:
         for name, digest, seconds in pool.map(digest_of, names):
             found[name] = digest
-            lines = list(differences(before.get(name, {}), digest))
+            lines = list(differences(before[name], digest)) if name in before else ["is new"]
             changed += bool(lines)
-            print(
-                f"{name}: {'as before' if not lines else 'CHANGED'} ({seconds:.1f} s)", *lines, sep="\n  ", flush=True
-            )
+            says = "CHANGED" if lines else "as before"
+            print(f"{name}: {says} ({seconds:.1f} s)", *lines, sep="\n  ", flush=True)
+            if given.write:
+                write(given.file, {**before, **found})
     if given.write:
-        whole = {"made_with": made_with(), "examples": dict(sorted({**before, **found}.items()))}
-        given.file.write_text(json.dumps(whole, indent=1) + "\n")
         return 0
     if changed and kept.get("made_with") != made_with():
         print(f"the kept digests are of {kept.get('made_with')}, these of {made_with()}")
     return 1 if changed else 0
+
+
+def write(file: Path, examples: dict[str, Any]) -> None:
+    """Write digests, a line an example, so that a change shows which of them it renews."""
+    lines = [f"{json.dumps(name)}: {json.dumps(digest)}" for name, digest in sorted(examples.items())]
+    file.write_text(f'{{"made_with": {json.dumps(made_with())}, "examples": {{\n' + ",\n".join(lines) + "\n}}\n")
 
 
 def made_with() -> dict[str, str]:
