@@ -6,6 +6,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,12 +14,14 @@ import numpy as np
 
 from prolepsis.engine.simulation import simulate
 from prolepsis.engine.world import compile_world
-from prolepsis.matter.kinds import PHENOMENA, Draw, Phenomenon
+from prolepsis.matter.kinds import known_kinds
 from prolepsis.matter.liquids import flowing
+from prolepsis.matter.liquids.kind import Liquids
 from prolepsis.matter.liquids.solver import COURANT, Effort
 from prolepsis.programs import read_program
 from prolepsis.projection import read_scenario
 from prolepsis.scene.compose import compose
+from prolepsis.scene.kind import Controller
 from prolepsis.scene.running import Running
 from prolepsis.system.mujoco import mujoco
 
@@ -53,22 +56,25 @@ def pour(liquid: str, count: int, duration: float) -> tuple[float, float, Effort
         "liq1.density": density,
     }
     read = read_scenario(POURING, settings)
-    scene = compose(read.knowledge_base(), particles=read.particles)
+    scene = compose(read.knowledge_base(), known_kinds(), particles=read.particles)
     program = read_program(read.bound_plan(), scene)
     made: list[flowing.Flowing] = []
     begun: list[float] = []
 
-    def attach(state: Running, draw: Draw) -> Sequence[Phenomenon]:
-        found = flowing.attach(state, draw)
-        made.extend(each for each in found if isinstance(each, flowing.Flowing))
-        # The settling before the run is not part of it.
-        for each in made:
-            each.liquid.effort = Effort()
-        begun.append(time.perf_counter())
-        return found
+    class Timed(Liquids):
+        """Liquids, of which the solver is at hand."""
 
-    phenomena = [attach if each is flowing.attach else each for each in PHENOMENA]
-    log = simulate(compile_world(scene), program, duration=duration, seed=read.seed, phenomena=phenomena)
+        def start(self, state: Running) -> Sequence[Controller]:
+            found = super().start(state)
+            made.extend(each for each in found if isinstance(each, flowing.Flowing))
+            # The settling before the run is not part of it.
+            for each in made:
+                each.liquid.effort = Effort()
+            begun.append(time.perf_counter())
+            return found
+
+    timed = replace(scene, kinds=tuple(Timed() if isinstance(kind, Liquids) else kind for kind in scene.kinds))
+    log = simulate(compile_world(timed), program, duration=duration)
     return time.perf_counter() - begun[0], log.duration, made[0].liquid.effort
 
 

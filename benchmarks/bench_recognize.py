@@ -9,7 +9,7 @@ import numpy as np
 from prolepsis.fluents import recognize
 from prolepsis.geometry.shape import FloatArray, Geom, IntArray, Shape
 from prolepsis.log.log import Contacts, Log
-from prolepsis.log.things import Thing
+from prolepsis.log.things import FIXED, Thing
 
 DT = 0.001
 BODIES = 40
@@ -26,7 +26,7 @@ def busy_log(seconds: float, *, seed: int = 1) -> Log:
     """
     random = np.random.default_rng(seed)
     ticks = round(seconds / DT)
-    things = [Thing(name="floor", kind="Floor", shape=Shape(geoms=(Geom(type="plane"),)), fixed=True)]
+    things = [Thing(name="floor", kind="Floor", shape=Shape(geoms=(Geom(type="plane"),)), mount=FIXED)]
     poses = np.zeros((ticks, BODIES + 1, 7))
     poses[:, :, 3] = 1.0
     pairs: list[tuple[int, int, float]] = []

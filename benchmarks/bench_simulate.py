@@ -7,14 +7,12 @@ import pstats
 import time
 from typing import Any
 
-import numpy as np
-from tests.scenes import EGG_IN_HAND, scene
+from tests.scenes import EGG_IN_HAND, scene, started
 
 from prolepsis.engine.simulation import simulate
 from prolepsis.engine.state import State
 from prolepsis.engine.world import compile_world
-from prolepsis.matter.kinds import Draw
-from prolepsis.matter.shells.breaking import attach
+from prolepsis.matter.shells.breaking import Breaking
 from prolepsis.programs import read_program
 from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.terms import parse_term
@@ -32,8 +30,8 @@ def _bare(world: Any, force: float, count: int, step: float) -> float:
     model.actuator_gainprm[motor, 0] = 1.0
     model.actuator_biasprm[motor, :3] = (0.0, 0.0, -100.0)
     data.ctrl[motor] = -force
-    for controller in attach(state, Draw(rng=np.random.default_rng(1), spread=False)):
-        controller.substep(state)  # gives the contacts the stiffness of the shell
+    for controller in started(state, Breaking):
+        controller.begin_tick(state)  # gives the contacts the stiffness of the shell
     for _ in range(2000):
         mujoco.mj_step(model, data)
     start = time.perf_counter()

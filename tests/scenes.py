@@ -5,17 +5,22 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from prolepsis.engine.simulation import simulate
+from prolepsis.engine.state import State
 from prolepsis.engine.world import compile_world
 from prolepsis.knowledge import KnowledgeBase
 from prolepsis.log.log import Log
+from prolepsis.matter.kinds import known_kinds
 from prolepsis.matter.liquids.filling import DEFAULT_PARTICLES
 from prolepsis.programs import read_program
 from prolepsis.scene.compose import compose
+from prolepsis.scene.kind import Controller
 from prolepsis.scene.scene import Scene
 from prolepsis.terms.terms import parse_term
+
+Acting = TypeVar("Acting", bound=Controller)
 
 PREFIX = "@prefix : <https://w3id.org/prolepsis#> .\n"
 
@@ -31,7 +36,7 @@ def scene(turtle: str, values: Mapping[str, float | str] | None = None, particle
         file = Path(folder) / "situation.ttl"
         file.write_text(PREFIX + turtle, encoding="utf-8")
         knowledge = KnowledgeBase.load(file)
-    return compose(knowledge.with_values(values) if values else knowledge, particles=particles)
+    return compose(knowledge.with_values(values) if values else knowledge, known_kinds(), particles=particles)
 
 
 def run(
@@ -45,6 +50,14 @@ def run(
     """Return the log of a plan in a situation; ``options`` are those of ``simulate``."""
     composed = scene(turtle, values, particles)
     return simulate(compile_world(composed), read_program(parse_term(plan), composed), **options)
+
+
+def started(state: State, type: type[Acting]) -> list[Acting]:
+    """Start the controllers of all kinds in a state, and return those of a type."""
+    going = [controller for kind in state.scene.kinds for controller in kind.start(state)]
+    for each in going:
+        each.bind(state)
+    return [each for each in going if isinstance(each, type)]
 
 
 def falling_egg(height: float, *, standing: bool = False) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 from prolepsis.geometry.shape import FloatArray, Geom, Hole, Shape, Surface
 from prolepsis.log.log import FREE, PARKED, Action, Contacts, Detachments, Log, Particles
 from prolepsis.log.particle_tables import rounded
-from prolepsis.log.things import Thing
+from prolepsis.log.things import FIXED, WITHIN, Thing
 from prolepsis.terms.terms import Term
 
 DT = 0.001
@@ -27,7 +27,7 @@ def egg_things() -> tuple[Thing, ...]:
     box = Shape(geoms=(Geom(type="box", size=(0.1, 0.1, 0.005)),))
     floor = Shape(geoms=(Geom(type="plane", size=(2.0, 2.0, 0.1)),))
     return (
-        Thing(name="floor", kind="Floor", shape=floor, fixed=True, roles=frozenset({"Floor"})),
+        Thing(name="floor", kind="Floor", shape=floor, mount=FIXED, roles=frozenset({"Floor"})),
         Thing(
             name="egg1",
             kind="Egg",
@@ -38,9 +38,23 @@ def egg_things() -> tuple[Thing, ...]:
         ),
         Thing(name="eggshell1", kind="EggShell", whole="egg1", mass=0.006, roles=frozenset({"EggShell"})),
         Thing(name="yolk1", kind="Yolk", whole="egg1", mass=0.018, roles=frozenset({"Stuff"})),
-        Thing(name="eggshell1/piece0", kind="Piece", shape=piece, whole="eggshell1", roles=frozenset({"Piece"})),
-        Thing(name="eggshell1/piece1", kind="Piece", shape=piece, whole="eggshell1", roles=frozenset({"Piece"})),
-        Thing(name="yolk1/blob0", kind="Blob", shape=blob, whole="yolk1", roles=frozenset({"Blob"})),
+        Thing(
+            name="eggshell1/piece0",
+            kind="Piece",
+            shape=piece,
+            whole="eggshell1",
+            mount=WITHIN,
+            roles=frozenset({"Piece"}),
+        ),
+        Thing(
+            name="eggshell1/piece1",
+            kind="Piece",
+            shape=piece,
+            whole="eggshell1",
+            mount=WITHIN,
+            roles=frozenset({"Piece"}),
+        ),
+        Thing(name="yolk1/blob0", kind="Blob", shape=blob, whole="yolk1", mount=WITHIN, roles=frozenset({"Blob"})),
         Thing(name="flap1", kind="Flap", shape=box, position=(0.0, 0.0, 0.5), roles=frozenset({"Table"})),
     )
 
@@ -72,9 +86,9 @@ def egg_drop_log() -> Log:
         poses=poses,
         carrier=carrier,
         contacts=_contacts(),
-        detachments=Detachments(
+        happenings=Detachments(
             tick=np.array([LAND]), thing=np.array([1]), a=np.array([4]), b=np.array([5]), force=np.array([38.5])
-        ),
+        ).happenings(),
         channels={"egg1.load": np.where(np.arange(TICKS) == LAND, 1.0, 0.1)},
         actions=(Action(term=Term("wait", (0.8,)), start=0, end=TICKS, evidence={"asked": 0.8}),),
     )

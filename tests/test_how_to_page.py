@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
+import ast
+import math
+import os
 import re
 import shutil
+import subprocess
+import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.scenes import EGG_IN_HAND, run
+from tests.scenes import EGG_IN_HAND, run, scene
 
-from prolepsis.engine.channels import MONITORS
+import prolepsis
 from prolepsis.engine.simulation import simulate
 from prolepsis.engine.world import compile_world
 from prolepsis.fluents import recognize
 from prolepsis.knowledge import KnowledgeBase
-from prolepsis.matter.kinds import PHENOMENA
+from prolepsis.matter.kinds import known_kinds
 from prolepsis.programs import ACTIONS, read_program
 from prolepsis.projection import project
 from prolepsis.scene.compose import compose
@@ -33,12 +39,10 @@ def example(section: str, language: str) -> str:
 
 @pytest.fixture(autouse=True)
 def registries_as_they_were() -> Iterator[None]:
-    actions, monitors = dict(ACTIONS), dict(MONITORS)
+    actions = dict(ACTIONS)
     yield
     ACTIONS.clear()
     ACTIONS.update(actions)
-    MONITORS.clear()
-    MONITORS.update(monitors)
 
 
 def defined(section: str) -> dict[str, Any]:
@@ -50,7 +54,7 @@ def defined(section: str) -> dict[str, Any]:
 def test_an_object_is_a_few_lines_of_turtle(tmp_path: Path) -> None:
     file = tmp_path / "plate.ttl"
     file.write_text(example("An object", "turtle"), encoding="utf-8")
-    scene = compose(KnowledgeBase.load(file))
+    scene = compose(KnowledgeBase.load(file), known_kinds())
     log = simulate(compile_world(scene), read_program(parse_term("wait(0.3)"), scene))
     timeline = recognize(log, domain=scene.domain)
     assert timeline.ask("holds(supports(plate1,block1), T), holds(supports(floor,plate1), T)")
@@ -73,19 +77,45 @@ def test_an_action_is_one_generator() -> None:
     assert [str(action.term) for action in log.actions] == ["shake(hand1,2)"]
 
 
-def test_a_phenomenon_is_one_controller() -> None:
-    attach = defined("A phenomenon")["attach"]
-    log = run(
-        ":floor a :Floor . :block1 a :Block ; :on :floor ; :temperature 60.0 .",
-        duration=0.5,
-        phenomena=(*PHENOMENA, attach),
-        monitors={"block1": ["temperature"]},
+COOLED = """
+from prolepsis import project
+projection = project("scenario.toml")
+log = projection.log
+print(log.channels["block1.temperature"][-1] - 293.15)
+print({type: each.tick.tolist() for type, each in log.happenings.items()})
+print(projection.ask("holds(hot(block1), S-E), occurs(coolingDown(block1), _), value(block1, coolingTime, V)"))
+"""
+
+
+def test_a_kind_of_matter_is_three_files_and_no_line_elsewhere(tmp_path: Path) -> None:
+    house = tmp_path / "src" / "prolepsis"
+    shutil.copytree(Path(prolepsis.__file__).parent, house, ignore=shutil.ignore_patterns("__pycache__"))
+    files = re.findall(r"`src/prolepsis/([^`]+/cooling[^`]*)`:\n\n```\w+\n(.*?)```", PAGE, re.DOTALL)
+    assert len(files) == 3
+    for name, text in files:
+        assert not (house / name).exists()
+        (house / name).write_text(text, encoding="utf-8")
+    turtle = ":floor a :Floor . :block1 a :Block ; :on :floor ; :temperature 55.0 ; :coolingTime 2.0 ."
+    (tmp_path / "kitchen.ttl").write_text(f"@prefix : <https://w3id.org/prolepsis#> . {turtle}")
+    (tmp_path / "scenario.toml").write_text('situation = "kitchen.ttl"\nplan = "wait(4.0)"\n')
+    command = [sys.executable, "-c", COOLED]
+    done = subprocess.run(
+        command, cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(house.parent)}, capture_output=True, text=True
     )
-    warmth = log.channels["block1.temperature"] - 293.15
-    assert warmth[-1] / warmth[0] == pytest.approx(0.995, abs=2e-4)  # exp(-0.01 * 0.5)
+    assert done.returncode == 0, done.stderr
+    warmth, happened, answers = done.stdout.splitlines()
+    assert float(warmth) == pytest.approx(35.0 * math.exp(-4.5 / 2), rel=1e-3)
+    (tick,) = ast.literal_eval(happened)["chill"]
+    assert tick == pytest.approx(2000 * math.log(35 / 5), abs=2)  # Newton's law, and a tick to be told
+    (answer,) = ast.literal_eval(answers)
+    assert answer["V"] == 2.0
+    assert answer["E"] == pytest.approx(2 * math.log(35 / 30), abs=0.002)
 
 
-def test_a_monitor_is_one_function() -> None:
-    defined("A monitor")
-    log = run(":floor a :Floor . :block1 a :Block ; :on :floor .", duration=0.02, monitors={"block1": ["distance"]})
+def test_a_channel_is_a_line_of_a_kind() -> None:
+    measuring = defined("A channel")["Measuring"]()
+    known = scene(":floor a :Floor . :block1 a :Block ; :on :floor .")
+    world = compile_world(replace(known, kinds=(*known.kinds, measuring)))
+    program = read_program(parse_term("wait(0.02)"), known)
+    log = simulate(world, program, duration=0.02, monitors={"block1": ["distance"]})
     assert log.channels["block1.distance"][0] == pytest.approx(0.05, abs=1e-4)

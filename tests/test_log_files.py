@@ -13,7 +13,7 @@ import pyarrow.parquet  # pyright: ignore[reportMissingTypeStubs]
 import pytest
 
 from prolepsis.log.files import read_log, write_log
-from prolepsis.log.log import FREE, Detachments, Log
+from prolepsis.log.log import FREE, Log
 from prolepsis.log.particle_tables import STEP, rounded
 from prolepsis.log.sealed import MANIFEST, write_sealed
 from prolepsis.terms.errors import InputError, LogError
@@ -132,7 +132,7 @@ def test_an_empty_log_comes_back(tmp_path: Path) -> None:
         poses=whole.poses[:0],
         carrier=whole.carrier[:0],
         contacts=replace(whole.contacts, **no_rows),
-        detachments=Detachments(),
+        happenings={},
         channels={},
         actions=(),
     )
@@ -211,7 +211,7 @@ def test_a_page_checksum_guards_a_table_read_by_itself(saved: Path, tmp_path: Pa
 
 def test_another_version_is_refused(saved: Path, tmp_path: Path) -> None:
     folder = shutil.copytree(saved, tmp_path / "log")
-    text = (folder / MANIFEST).read_text().replace('"version": 1', '"version": 2')
+    text = (folder / MANIFEST).read_text().replace('"version": 2', '"version": 3')
     (folder / MANIFEST).write_text(text)
     with pytest.raises(LogError, match="format version 2; this prolepsis reads 1"):
         read_log(folder)

@@ -146,18 +146,20 @@ def project_into(
     tell("reading the knowledge")
     knowledge = read.knowledge_base()
     # What physics imports takes a moment, and a wrong scenario is refused before it.
-    from prolepsis.engine.simulation import TICK, simulate
+    from prolepsis.engine.simulation import simulate
     from prolepsis.engine.world import compile_world
     from prolepsis.fluents import recognize
+    from prolepsis.matter.kinds import known_kinds
     from prolepsis.programs import check_units, read_program
     from prolepsis.robots.loading import load_robot
     from prolepsis.scene.compose import compose
     from prolepsis.scene.particles import PERIOD
+    from prolepsis.scene.running import TICK
 
     if any(knowledge.is_a(name, "Liquid") for name in knowledge.objects) and not are_kept():
         tell("compiling the kernels of liquids, once, in about a minute")
     robot = load_robot(read.robot, read.path.parent) if isinstance(read.robot, OwnRobot) else None
-    scene = compose(knowledge, particles=read.particles, robot=robot)
+    scene = compose(knowledge, known_kinds(robot), particles=read.particles)
     check_units(read.plan, {name: each.unit for name, each in read.parameters.items()})
     program = read_program(read.bound_plan(), replace(scene, folder=read.path.parent))
     tell("building the world")
@@ -172,7 +174,6 @@ def project_into(
         program,
         duration=read.duration,
         seed=read.seed,
-        draw=read.draw,
         monitors=read.monitors,
         progress=lambda time: tell(f"simulating: {time:.1f} s"),
     )

@@ -15,7 +15,7 @@ from prolepsis.engine.world import compile_world
 from prolepsis.geometry.meshes import read_surface
 from prolepsis.geometry.shape import Geom, Shape
 from prolepsis.log.files import write_log
-from prolepsis.log.things import Thing
+from prolepsis.log.things import FIXED, FREE, Mount, Thing
 from prolepsis.report.render import render_frames, render_strip, render_video
 from prolepsis.scene.scene import Scene
 from prolepsis.terms.errors import InputError
@@ -69,12 +69,12 @@ def test_a_sweep_without_end_is_refused() -> None:
         sweep(EXAMPLES / "grasp_egg.toml", over)
 
 
-def things(count: int, *, fixed: bool, solids: int = 1) -> Scene:
+def things(count: int, *, mount: Mount, solids: int = 1) -> Scene:
     """Return a scene of as many balls."""
     shape = Shape(geoms=(Geom(type="sphere", size=(0.01, 0.0, 0.0)),) * solids)
     return Scene(
         things=tuple(
-            Thing(name=f"b{k}", kind="Ball", shape=shape, position=(0.1 * k, 0.0, 0.0), mass=0.01, fixed=fixed)
+            Thing(name=f"b{k}", kind="Ball", shape=shape, position=(0.1 * k, 0.0, 0.0), mass=0.01, mount=mount)
             for k in range(count)
         )
     )
@@ -82,10 +82,10 @@ def things(count: int, *, fixed: bool, solids: int = 1) -> Scene:
 
 def test_a_scene_that_is_too_large_is_told_so() -> None:
     with pytest.raises(InputError, match="the scene has 5000 things that move; allowed: 2000, since what MuJoCo"):
-        compile_world(things(5000, fixed=False))
+        compile_world(things(5000, mount=FREE))
     with pytest.raises(InputError, match="the scene has 30000 convex solids; allowed: 20000"):
-        compile_world(things(10, fixed=True, solids=3000))
-    assert np.isfinite(compile_world(things(20, fixed=False)).model.body_mass).all()
+        compile_world(things(10, mount=FIXED, solids=3000))
+    assert np.isfinite(compile_world(things(20, mount=FREE)).model.body_mass).all()
 
 
 def test_a_mesh_that_is_no_file_or_too_large_is_not_read(tmp_path: Path) -> None:

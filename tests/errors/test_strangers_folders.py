@@ -317,7 +317,7 @@ LOGS: dict[str, Change] = {
     "contacts out of order": in_table("contacts.parquet", "tick", 0, 700),
     "a force that is not finite": in_table("contacts.parquet", "force_z", 0, np.inf),
     "contacts of other columns": with_columns("contacts.parquet", peak=None),
-    "a break after the end": in_table("detachments.parquet", "tick", -1, 10**12),
+    "a break after the end": in_table("happenings_detachment.parquet", "tick", -1, 10**12),
     "a particle that is no number": a_particle_that_is_no_number,
     "a mass of particles that is no number": in_table("particle_kinds.parquet", "mass", 0, np.nan),
 }

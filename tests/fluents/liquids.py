@@ -12,7 +12,7 @@ from tests.fluents.logs import Draft
 from prolepsis.fluents import recognize
 from prolepsis.geometry.shape import IDENTITY, FloatArray, Geom, Hole, Quaternion, Shape, Surface, Triple
 from prolepsis.log.log import FREE, Action, Log, Particles
-from prolepsis.log.things import Thing
+from prolepsis.log.things import FIXED, Thing
 from prolepsis.log.timeline import Timeline
 
 DT = 0.01
@@ -79,7 +79,7 @@ def lathe(profile: Profile, sides: int = 32) -> Surface:
 def table() -> Thing:
     """Return a table whose top is at zero."""
     shape = Shape(geoms=(Geom(type="box", size=(0.5, 0.5, 0.02)),))
-    return Thing(name="table1", kind="Table", shape=shape, position=(0.0, 0.0, -0.02), fixed=True)
+    return Thing(name="table1", kind="Table", shape=shape, position=(0.0, 0.0, -0.02), mount=FIXED)
 
 
 def liquid(name: str = "liq1") -> Thing:

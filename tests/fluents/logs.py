@@ -9,7 +9,7 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, Geom, Shape, Triple
 from prolepsis.log.log import Action, Bonds, Contacts, Detachments, Log
-from prolepsis.log.things import Thing
+from prolepsis.log.things import FIXED, WITHIN, Thing
 
 DT = 0.001
 PLATES = 5
@@ -70,7 +70,7 @@ class Draft:
             poses=self.poses,
             carrier=self.carrier,
             contacts=self._contacts(),
-            detachments=detachments or Detachments(),
+            happenings=(detachments or Detachments()).happenings(),
             bonds=bonds or Bonds(),
             channels=channels or {},
             actions=actions,
@@ -92,7 +92,7 @@ class Draft:
 
 def floor() -> Thing:
     """Return a floor."""
-    return Thing(name="floor", kind="Floor", shape=Shape(geoms=(Geom(type="plane"),)), fixed=True)
+    return Thing(name="floor", kind="Floor", shape=Shape(geoms=(Geom(type="plane"),)), mount=FIXED)
 
 
 def solid_box(name: str, *, half: float = 0.05, mass: float = 1.0, z: float = 0.05, x: float = 0.0) -> Thing:
@@ -122,13 +122,13 @@ def egg() -> list[Thing]:
         name = f"eggshell1/piece{k}"
         things.append(
             Thing(name=name, kind="Piece", shape=shape, mass=0.001, whole="eggshell1", position=where,
-                  roles=frozenset({"Piece"}))
+                  mount=WITHIN, roles=frozenset({"Piece"}))
         )  # fmt: skip
     ball = Shape(geoms=(Geom(type="sphere", size=(0.006, 0.0, 0.0)),))
     for stuff, count, mass in (("yolk1", 3, 0.006), ("white1", 2, 0.017)):
         things += [
             Thing(name=f"{stuff}/blob{k}", kind="Blob", shape=ball, mass=mass, whole=stuff, position=place,
-                  roles=frozenset({"Blob"}))
+                  mount=WITHIN, roles=frozenset({"Blob"}))
             for k in range(count)
         ]  # fmt: skip
     return things

@@ -27,7 +27,7 @@ def _bodies(world: World, log: Log) -> FloatArray:
     model = world.model
     total = np.zeros(log.tick_count - 1)
     for number, thing in enumerate(log.things):
-        if thing.fixed or not world.is_body(thing):
+        if thing.fixed or not thing.is_body:
             continue
         at = model.body(thing.name).id
         mass, inertia = float(model.body_mass[at]), model.body_inertia[at]

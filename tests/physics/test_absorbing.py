@@ -6,16 +6,14 @@ import math
 
 import numpy as np
 import pytest
-from tests.scenes import run, scene
+from tests.scenes import run, scene, started
 
 from prolepsis.engine.state import State
 from prolepsis.engine.world import compile_world
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.log.log import FREE, Log
-from prolepsis.matter.liquids import flowing
-from prolepsis.matter.phenomenon import Draw
-from prolepsis.matter.shells.carried_mass import CarriedMass
 from prolepsis.matter.sponges import absorbing
+from prolepsis.matter.sponges.carried_mass import CarriedMass
 from prolepsis.matter.sponges.sponge_law import SpongeLaw
 from prolepsis.system.mujoco import mujoco
 
@@ -105,16 +103,14 @@ def test_what_comes_out_is_beside_it_and_takes_the_place_of_nothing() -> None:
     state = State.of(
         compile_world(scene(f":floor a :Floor . {SOAKED.replace(':on :table1', ':z 0.5')}", particles=800))
     )
-    draw = Draw(rng=np.random.default_rng(1), spread=False)
-    flowing.attach(state, draw)
-    (sponge,) = absorbing.attach(state, draw)
+    (sponge,) = started(state, absorbing.Absorbing)
     particles = state.particles
-    assert isinstance(sponge, absorbing.Absorbing) and particles is not None
+    assert particles is not None
     # Nothing flows away here, so what comes out finds ever fewer free places.
     for _ in range(40):
         sponge.pressure = 1e4
         for _ in range(absorbing.LOOK_TICKS):
-            sponge.tick(state)
+            sponge.end_tick(state)
     free = particles.position[particles.free]
     assert 300 < len(free) < 800
     apart = np.linalg.norm(free[:, None] - free[None], axis=2) + np.eye(len(free))
@@ -220,4 +216,4 @@ def test_the_law_of_a_sponge() -> None:
 
 def test_in_a_scene_without_liquid_nothing_looks_after_a_sponge() -> None:
     state = State.of(compile_world(scene(TABLE + f":sponge1 a :Sponge ; {SIZE} ; :on :table1 .")))
-    assert not absorbing.attach(state, Draw(rng=np.random.default_rng(1), spread=False))
+    assert not started(state, absorbing.Absorbing)

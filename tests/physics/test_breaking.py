@@ -7,14 +7,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.scenes import EGG_IN_HAND, falling_egg, run, scene
+from tests.scenes import EGG_IN_HAND, falling_egg, run, scene, started
 
 from prolepsis.engine.state import State
 from prolepsis.engine.world import compile_world
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.log.log import Log
-from prolepsis.matter.phenomenon import Draw
-from prolepsis.matter.shells.breaking import attach
+from prolepsis.matter.shells.breaking import Breaking
 from prolepsis.matter.shells.shell_contact import local_stiffness
 from prolepsis.system.mujoco import mujoco
 
@@ -113,7 +112,7 @@ def test_a_shell_that_is_whole_stays_as_stiff_when_another_falls_apart() -> None
         compile_world(scene(":floor a :Floor . :egg1 a :Egg ; :on :floor . :egg2 a :Egg ; :on :floor ; :x 0.2 ."))
     )
     compiled = stiffness_of(state, "egg2/0")
-    attach(state, Draw(rng=np.random.default_rng(1), spread=False))
+    started(state, Breaking)
     before = stiffness_of(state, "egg2/0")
     assert not np.allclose(compiled, before)
     names = {thing.name: i for i, thing in enumerate(state.world.scene.things)}

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from prolepsis.engine.robot_world import add_robot
 from prolepsis.log.things import Thing
 from prolepsis.projection import Projection, project
 from prolepsis.robots.loading import load_robot
 from prolepsis.robots.model import robot_model
 from prolepsis.robots.model_file import read_model_file
 from prolepsis.robots.pr2 import PR2
+from prolepsis.robots.robot_world import add_robot
 from prolepsis.scenario.own_robot import OwnGripper, OwnRobot
 from prolepsis.system.mujoco import mujoco
 

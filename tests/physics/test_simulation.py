@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 from tests.scenes import EGG_IN_HAND, falling_egg, run, scene
 
-from prolepsis.engine.channels import MONITORS
+from prolepsis.engine.channels import known_channels
 from prolepsis.engine.simulation import simulate
 from prolepsis.engine.world import compile_world
 from prolepsis.log.log import Log
+from prolepsis.matter.kinds import known_kinds
 from prolepsis.programs import read_program
 from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.errors import InvalidSimulationError, KnowledgeError, ScenarioError, UnknownNameError
@@ -37,7 +38,7 @@ def test_the_same_run_gives_the_same_bytes() -> None:
 def test_monitors_change_nothing() -> None:
     plan = "sequence([close(hand1, 50), lift(hand1, 0.05)])"
     few = run(EGG_IN_HAND, plan)
-    anything = [name for name, monitor in MONITORS.items() if monitor.needs in (None, "Breakable")]
+    anything = [name for name, channel in known_channels(known_kinds()).items() if channel.role in (None, "Breakable")]
     many = run(EGG_IN_HAND, plan, monitors={"egg1": anything, "hand1": ["speed", "wet", "height"]})
     assert len(many.channels) > len(few.channels)
     assert digest(few) == digest(many)
@@ -163,7 +164,7 @@ REFUSED = [
     (":floor a :Floor . :ball1 a :Ball ; :on :floor ; :radius 0.00001 .", "the world cannot be built: .*"),
     (":floor a :Floor . :egg1 a :Egg ; :on :floor ; :length 0.5 ; :breadth 0.01 .", "allowed: a breadth of 0.5 to 2"),
     (":floor a :Floor . :egg1 a :Egg ; :on :floor ; :broken true .", "egg1 is broken at the start"),
-    (":floor a :Floor . :hand1 a :Gripper ; :on :floor .", "a gripper does not rest on anything; state its z"),
+    (":floor a :Floor . :hand1 a :Gripper ; :on :floor .", "a Gripper does not rest on anything; state its z"),
 ]
 
 

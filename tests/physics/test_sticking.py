@@ -6,16 +6,14 @@ import math
 
 import numpy as np
 import pytest
-from tests.scenes import run, scene
+from tests.scenes import run, scene, started
 
 from prolepsis.engine.state import State
 from prolepsis.engine.world import compile_world
 from prolepsis.fluents import recognize
 from prolepsis.log.log import FREE, Log
-from prolepsis.matter.films import sticking
 from prolepsis.matter.films.adhesion import Adhesion, Hold
-from prolepsis.matter.liquids import flowing
-from prolepsis.matter.phenomenon import Draw
+from prolepsis.scene.parts import Shard
 from prolepsis.system.mujoco import mujoco
 
 
@@ -46,9 +44,7 @@ def test_a_cracked_boiled_egg_keeps_its_shell(dropped: Log) -> None:
 def apart(turtle: str) -> tuple[State, Adhesion]:
     """Return a run in which the shell of egg1 has fallen into single pieces, and what makes them stick."""
     state = State.of(compile_world(scene(turtle)))
-    draw = Draw(rng=np.random.default_rng(1), spread=False)
-    flowing.attach(state, draw)
-    controller = sticking.attach(state, draw)[0]
+    (controller,) = started(state, Adhesion)
     things = state.world.scene.things
     groups = [[i] for i, thing in enumerate(things) if "Piece" in thing.roles]
     state.split("egg1", groups)
@@ -59,13 +55,14 @@ def go_on(state: State, controller: Adhesion) -> None:
     """Do one tick of rigid-body physics and sticking."""
     mujoco.mj_step(state.model, state.data)
     controller.act(state)
-    controller.tick(state)
+    controller.end_tick(state)
 
 
 def test_a_piece_comes_off_a_boiled_egg_at_the_force_of_the_ontology() -> None:
     state, controller = apart(":floor a :Floor . :egg1 a :HardBoiledEgg ; :z 0.5 .")
     state.model.opt.gravity[:] = 0.0
     pulled = state.world.scene.thing("eggshell1/piece17")
+    (area,) = (shard.area for shard in state.scene.each(Shard) if shard.name == pulled.name)
     kernel = state.world.scene.index("kernel1")
     go_on(state, controller)
     go_on(state, controller)
@@ -80,13 +77,13 @@ def test_a_piece_comes_off_a_boiled_egg_at_the_force_of_the_ontology() -> None:
         nothing = np.zeros(3)
         mujoco.mj_applyFT(state.model, state.data, force * out, nothing, body.xpos, body.id, state.data.qfrc_applied)
         go_on(state, controller)
-    assert force == pytest.approx(2500.0 * pulled.quantities["area"], rel=0.05)
+    assert force == pytest.approx(2500.0 * area, rel=0.05)
     assert len(state.bonds) == 29
 
 
 def test_joints_stay_in_place_when_a_shard_falls_apart() -> None:
     state = State.of(compile_world(scene(":floor a :Floor . :egg1 a :HardBoiledEgg ; :z 0.5 .")))
-    controller = sticking.attach(state, Draw(rng=np.random.default_rng(1), spread=False))[0]
+    (controller,) = started(state, Adhesion)
     pieces = [i for i, thing in enumerate(state.world.scene.things) if "Piece" in thing.roles]
     state.split("egg1", [pieces[:1], pieces[1:20], *([piece] for piece in pieces[20:])])
     away = state.world.scene.things[pieces[-1]].name
@@ -99,7 +96,7 @@ def test_joints_stay_in_place_when_a_shard_falls_apart() -> None:
     left = len(state.joint_forces())
     assert 0 < left < joint_count
     assert strain(state) < 1.0e-4
-    controller.bind(state)
+    controller.rejoin(state)
     assert len(state.joint_forces()) == joint_count
     assert strain(state) < 1.0e-4
 
@@ -139,9 +136,9 @@ def test_a_wet_piece_sticks_to_a_wall_until_the_film_has_run_out(wet: bool) -> N
         assert 0.3 < fell_at < 0.5
         return
     # 4 pi gamma R cos(theta) sinks to the piece's weight while the film runs out in eta L / (rho g h^2).
-    q = piece.quantities
-    strength = 4 * math.pi * 0.0475 * q["radius"] * math.cos(math.radians(50.0))
-    lasting = 0.1 * math.sqrt(q["area"]) / (1035.0 * 9.81 * 0.2e-3**2)
+    (shard,) = (each for each in state.scene.each(Shard) if each.name == piece.name)
+    strength = 4 * math.pi * 0.0475 * shard.radius * math.cos(math.radians(50.0))
+    lasting = 0.1 * math.sqrt(shard.area) / (1035.0 * 9.81 * 0.2e-3**2)
     longest = lasting * math.log(strength / (piece.mass * 9.81))
     # Its middle is a little off the wall, so that it pulls outwards too, by less than its weight.
     shortest = lasting * math.log(strength / (2 * piece.mass * 9.81))

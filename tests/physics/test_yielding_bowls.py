@@ -6,14 +6,13 @@ import math
 
 import numpy as np
 import pytest
-from tests.scenes import run, scene
+from tests.scenes import run, scene, started
 
 from prolepsis.engine.state import State
 from prolepsis.engine.world import compile_world
 from prolepsis.fluents import recognize
 from prolepsis.log.log import Log
-from prolepsis.matter.phenomenon import Draw
-from prolepsis.matter.walls.denting import Denting, attach
+from prolepsis.matter.walls.denting import Denting
 from prolepsis.scene.shapes.panels import resistance
 from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.errors import KnowledgeError
@@ -28,7 +27,7 @@ class Pushed:
 
     def __init__(self, kind: str) -> None:
         self.state = State.of(compile_world(scene(f":floor a :Floor . :bowl1 a :{kind} ; :on :floor .")))
-        self.controller: Denting = attach(self.state, Draw(rng=np.random.default_rng(1), spread=False))[0]
+        (self.controller,) = started(self.state, Denting)
         self.panel = self.state.world.scene.thing("bowl1/panel0")
 
     def go_on(self, force: float) -> float:

@@ -7,7 +7,7 @@ import pytest
 
 from prolepsis.geometry.shape import FloatArray, Geom, Hole, Shape
 from prolepsis.log.log import FREE, PARKED, Contacts, Log, Particles
-from prolepsis.log.things import Thing
+from prolepsis.log.things import FIXED, Thing
 from prolepsis.report.droplets import Droplets
 from prolepsis.report.lathe import turned_surface
 from prolepsis.report.liquid import Picture
@@ -20,7 +20,7 @@ FLOOR, SPONGE, LIQUID = 0, 1, 2
 def log_of(places: FloatArray, holder: int, kind: str = "Water", *, last: FloatArray | None = None) -> Log:
     """Return the log, two ticks long, of particles above a floor, and a sponge far from them."""
     things = (
-        Thing(name="floor", kind="Floor", shape=Shape(geoms=(Geom(type="plane"),), colour=(1, 1, 1, 1)), fixed=True),
+        Thing(name="floor", kind="Floor", shape=Shape(geoms=(Geom(type="plane"),), colour=(1, 1, 1, 1)), mount=FIXED),
         Thing(
             name="sponge1", kind="Sponge", shape=Shape(geoms=(Geom(type="box", size=(0.02, 0.02, 0.01)),)), mass=0.01
         ),

@@ -18,7 +18,6 @@ from prolepsis.engine.turning import matrices
 from prolepsis.geometry.shape import BoolArray, FloatArray, Geom, IntArray
 from prolepsis.geometry.solids import Solid, solid_of
 from prolepsis.log.things import Thing
-from prolepsis.scene.scene import HIDDEN_ROLES
 
 DEEPEST = 0.02
 """A solid may sink into another by so much for a moment [m], or by a quarter of its size if that is more: contacts
@@ -58,7 +57,7 @@ def crossings(things: Sequence[Thing], poses: FloatArray, stretches: Sequence[St
         poses: Of each thing at each tick, shape (T, n, 7).
         stretches: What could touch something when.
     """
-    small = np.array([bool(thing.roles & HIDDEN_ROLES) for thing in things])
+    small = np.array([thing.emerges for thing in things])
     reach = np.array([_reach(thing.shape.geoms) for thing in things])
     # By number: to hash a mesh takes longer than to look at it.
     solids: dict[tuple[int, int], _Followed] = {}

@@ -16,7 +16,6 @@ from prolepsis.engine.matter import Stretch
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.log import FREE, Bonds, Contacts, Particles
 from prolepsis.log.things import Thing
-from prolepsis.scene.scene import HIDDEN_ROLES
 
 HEIGHT = 0.01
 """Energy counts as gained from so much on, as a height to which it lifts [m]: things may overlap by half a millimetre
@@ -85,7 +84,7 @@ class _Run:
         """Find out what touches what, and what is held or driven."""
         self.poses, self.around, self.stretches, self.gravity, self.dt = poses, around, stretches, gravity, dt
         self.ticks, self.count = poses.shape[:2]
-        self.small = np.array([bool(thing.roles & HIDDEN_ROLES) for thing in things])
+        self.small = np.array([thing.emerges for thing in things])
         self.pairs = _pairs(around)
         moving = np.zeros(self.count, dtype=np.bool_)
         for stretch in stretches:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from prolepsis.geometry.shape import IntArray, quaternion, triple
-from prolepsis.log.things import Thing
+from prolepsis.log.things import FIXED, FREE, Mount, Thing, jointed
 from prolepsis.scene.shapes.from_model import shape_of_geoms
 from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.errors import InputError, UnknownNameError
@@ -168,7 +168,7 @@ def _world_thing(model: Any, name: str, geoms: list[int]) -> Thing:
     planes = all(int(model.geom_type[geom]) == _PLANE for geom in geoms)
     shape = shape_of_geoms(model, geoms)
     roles = frozenset({"Floor"}) if planes else frozenset[str]()
-    return Thing(name=name, kind="Floor" if planes else "Thing", shape=shape, roles=roles, fixed=True)
+    return Thing(name=name, kind="Floor" if planes else "Thing", shape=shape, roles=roles, mount=FIXED)
 
 
 def _body_thing(model: Any, data: Any, body: int, names: list[str], driven: set[int]) -> Thing:
@@ -192,5 +192,14 @@ def _body_thing(model: Any, data: Any, body: int, names: list[str], driven: set[
         mass=float(model.body_subtreemass[body]),
         whole=None if root == body else names[int(model.body_parentid[body])],
         roles=frozenset(roles),
-        fixed=bool(fixed),
+        mount=_mount(model, root, body, names, bool(fixed)),
     )
+
+
+def _mount(model: Any, root: int, body: int, names: list[str], fixed: bool) -> Mount:
+    if fixed:
+        return FIXED
+    if root != body:
+        return jointed(names[int(model.body_parentid[body])])
+    joint = int(model.body_jntadr[root])
+    return FREE if joint >= 0 and int(model.jnt_type[joint]) == _FREE else jointed()

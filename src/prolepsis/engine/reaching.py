@@ -17,7 +17,6 @@ from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.geometry.solids import Solid, solid_of
 from prolepsis.log.log import Contacts
 from prolepsis.log.things import Thing
-from prolepsis.scene.scene import HIDDEN_ROLES
 
 LASTING = 0.1
 """It must last so long [s]; an impact is over sooner."""
@@ -64,7 +63,7 @@ def reaches(
         stretches: What could touch something when.
         dt: Tick [s].
     """
-    small = [bool(thing.roles & HIDDEN_ROLES) for thing in things]
+    small = [thing.emerges for thing in things]
     needed = round(LASTING / dt)
     for stretch in stretches:
         rows: IntArray = np.arange(*np.searchsorted(contacts.tick, (stretch.start, stretch.end)), dtype=np.int64)

@@ -1,4 +1,4 @@
-"""The one loop: program -> targets; physics step; phenomena; monitors -> log."""
+"""The one loop: program -> targets; physics step; kinds of matter; channels -> log."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.engine.channels import Channels, Watched, chosen_monitors
+from prolepsis.engine.channels import Channels, chosen_channels
 from prolepsis.engine.crossing import crossings
 from prolepsis.engine.frames import Frames
 from prolepsis.engine.gaining import Surroundings, gains
@@ -18,21 +18,18 @@ from prolepsis.engine.sinking import sinkings
 from prolepsis.engine.state import State
 from prolepsis.engine.world import World
 from prolepsis.geometry.shape import FloatArray
-from prolepsis.log.log import Action, Contacts, Detachments, Log
+from prolepsis.log.happenings import Happening, happening_columns
+from prolepsis.log.log import Action, Contacts, Log
 from prolepsis.log.things import Thing
-from prolepsis.matter.kinds import PHENOMENA, Attach, Detachment, Draw
-from prolepsis.matter.shells.breaking import Breaking
 from prolepsis.programs.program import Program
 from prolepsis.robots.commands import Begin, Command, End, Sense
 from prolepsis.robots.control import Controls
-from prolepsis.scene.running import MAX_STEP
+from prolepsis.scene.running import MAX_STEP, TICK
 from prolepsis.system.mujoco import mujoco
 from prolepsis.system.threads import one_thread
 from prolepsis.terms.errors import InvalidSimulationError, PlanError, ScenarioError
 from prolepsis.terms.terms import Term
 
-TICK = 1.0e-3
-"""The clock of the log [s]."""
 SETTLING = 0.5
 """A run without a given duration goes on for this long after its program has ended [s]."""
 LONGEST = 600.0
@@ -50,9 +47,7 @@ def simulate(
     *,
     duration: float | None = None,
     seed: int = 1,
-    draw: bool = False,
     max_step: float = MAX_STEP,
-    phenomena: Sequence[Attach] = PHENOMENA,
     monitors: Mapping[str, Sequence[str]] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> Log:
@@ -62,10 +57,8 @@ def simulate(
         world: The compiled scene; it is not changed.
         program: The control program.
         duration: Simulated time [s]; the program's length plus settling when None.
-        seed: Seed of everything that is drawn.
-        draw: Draw uncertain strengths from their distributions instead of taking the means.
-        max_step: Longest substep [s]; phenomena ask for shorter ones.
-        phenomena: What adds to rigid-body physics, in the order in which it runs.
+        seed: Seed of all that is random in the run.
+        max_step: Longest substep [s]; kinds of matter ask for shorter ones.
         monitors: Thing to the names of what is logged of it; the defaults for things that are not named.
         progress: Called now and then with the simulated time [s].
 
@@ -79,15 +72,14 @@ def simulate(
         raise ScenarioError(f"duration: {duration:g} s is not between {TICK:g} and {LONGEST:g} s")
     state = State.of(world)
     things = world.scene.things
-    drawing = Draw(rng=np.random.default_rng(seed), spread=draw)
-    going = [controller for attach in phenomena for controller in attach(state, drawing)]
+    going = [controller for kind in world.scene.kinds for controller in kind.start(state)]
+    for each in going:
+        each.bind(state)
     controls = Controls.of(state)
     recorder = Recorder()
     frames = Frames()
-    channels = Channels(chosen_monitors(things, monitors))
-    breaking = {each.thing.name: each for each in going if isinstance(each, Breaking)}
-    watched = Watched(state=state, hands=controls.hands, breaking=breaking)
-    detachments: list[tuple[int, Detachment]] = []
+    channels = Channels(chosen_channels(world.scene, monitors))
+    happenings: list[tuple[int, Happening]] = []
     running: dict[Term, list[int]] = {}
     actions: list[Action] = []
     behaviour = program.start(_sense(state, controls, 0.0))
@@ -111,28 +103,33 @@ def simulate(
         if behaviour.ended and ended_at is None:
             ended_at = tick
         controls.act(state, TICK)
+        controls.publish(state)
 
         recorder.note_version(state)
         recorder.tick(state)
         frames.tick(state, tick)
-        channels.tick(watched)
+        channels.tick(state)
 
-        step = min((phenomenon.substep(state) for phenomenon in going), default=MAX_STEP)
-        step = min(step, max_step)
-        count = math.ceil(TICK / step - 1e-9)
+        for each in going:
+            each.begin_tick(state)
+        step = min((each.longest_step(state) for each in going), default=MAX_STEP)
+        count = math.ceil(TICK / min(step, max_step) - 1e-9)
         state.model.opt.timestep = TICK / count
-        together = count if all(phenomenon.is_steady() for phenomenon in going) else 1
+        together = count if all(each.is_steady() for each in going) else 1
         for _ in range(count // together):
             # Physics step.
             mujoco.mj_step(state.model, state.data, together)
             if not float(state.data.qvel @ state.data.qvel) <= MAX_SPEED**2 * state.model.nv:
                 _refuse(state, tick)
             recorder.substep(state, tick, TICK * together / count)
-            # Phenomena, in their one order.
-            for phenomenon in going:
-                version = state.version
-                detachments += [(tick, detached) for detached in phenomenon.act(state)]
+            # Matter, in its one order.
+            for acting in going:
+                version, splits = state.version, state.splits
+                happenings += [(tick, happening) for happening in acting.act(state)]
                 if state.version != version:
+                    if state.splits != splits:
+                        for each in going:
+                            each.rejoin(state)
                     for each in going:
                         each.bind(state)
                     state.model.opt.timestep = TICK / count
@@ -142,8 +139,8 @@ def simulate(
                     break
         if state.warnings or int(state.data.warning.number.sum()):
             _refuse(state, tick)
-        for phenomenon in going:
-            phenomenon.tick(state)
+        for each in going:
+            each.end_tick(state)
         controls.measure(state)
         tick += 1
 
@@ -161,7 +158,7 @@ def simulate(
         carrier=carriers,
         contacts=contacts,
         bonds=recorder.bond_columns(),
-        detachments=_detachment_columns(detachments),
+        happenings=happening_columns(happenings),
         channels=channels.columns(),
         actions=tuple(sorted((a for a in actions if a.end > a.start), key=lambda a: (a.start, -a.end, str(a.term)))),
         particles=particles,
@@ -260,15 +257,3 @@ def _refuse_gained(
             f"at {found.tick * TICK:.3f} s {things[found.thing].name} {what} {whose}: it can rise "
             f"{found.height * 1000:.0f} mm higher than it should"
         )
-
-
-def _detachment_columns(rows: list[tuple[int, Detachment]]) -> Detachments:
-    if not rows:
-        return Detachments()
-    return Detachments(
-        tick=np.array([tick for tick, _ in rows]),
-        thing=np.array([row.thing for _, row in rows]),
-        a=np.array([row.a for _, row in rows]),
-        b=np.array([row.b for _, row in rows]),
-        force=np.array([row.force for _, row in rows]),
-    )

@@ -11,7 +11,6 @@ from prolepsis.engine.matter import Matter
 from prolepsis.geometry.shape import FloatArray, Geom, IntArray
 from prolepsis.geometry.solids import solid_of
 from prolepsis.log.things import Thing
-from prolepsis.scene.scene import HIDDEN_ROLES
 
 SHARE = 0.1
 """A thing may stay pressed in by this share of its size [1]: what goes deeper is not on something but in it."""
@@ -69,7 +68,7 @@ def sinkings(things: Sequence[Thing], overlaps: Overlaps, matters: Sequence[Matt
     for number, key in enumerate(pairs):
         matter: Matter = matters[int(key[0])]
         rows = sorted((matter.row(int(key[1])), matter.row(int(key[2]))), key=lambda row: bool(matter.fixed[row]))
-        if any(things[int(matter.thing[row])].roles & HIDDEN_ROLES for row in rows):
+        if any(things[int(matter.thing[row])].emerges for row in rows):
             continue
         limit = _limit([(things[int(matter.thing[row])], matter.solid(row, things)) for row in rows])
         chosen = np.flatnonzero((pair_of.ravel() == number) & (overlaps.depth > limit))

@@ -41,6 +41,8 @@ class State:
     """Index of the thing that each MuJoCo body is, -1 for none, shape (nbody,)."""
     version: int = 0
     """Counts the rebuilt models."""
+    splits: int = 0
+    """Counts the bodies that have fallen apart."""
     warnings: int = 0
     """MuJoCo's warnings before the model was last rebuilt."""
     attributes: dict[tuple[str, str], float] = field(default_factory=dict[tuple[str, str], float])
@@ -65,7 +67,7 @@ class State:
         model = spec.compile()
         carrier = np.full(len(things), -1)
         for i in range(len(things)):
-            carrier[i] = _carrier(world, index, i)
+            carrier[i] = _carrier(things, index, i)
         state = cls(
             world=world,
             spec=spec,
@@ -88,10 +90,6 @@ class State:
     def scene(self) -> Scene:
         """What the world was made from."""
         return self.world.scene
-
-    def is_body(self, thing: Thing) -> bool:
-        """Return whether a thing is a rigid body of its own at the start."""
-        return self.world.is_body(thing)
 
     def refresh(self) -> None:
         """Bring the map from bodies to things up to date after the model has changed."""
@@ -272,6 +270,7 @@ class State:
             whole = np.flatnonzero(self.carrier == old_thing)
             self.carrier[whole] = -1
         self.spec.option.impratio = DEBRIS_IMPEDANCE_RATIO
+        self.splits += 1
         self._rebuild()
         for group in groups:
             joint = self.data.joint(things[group[0]].name)
@@ -342,11 +341,10 @@ class State:
         self.refresh()
 
 
-def _carrier(world: World, index: Mapping[str, int], i: int) -> int:
-    things = world.scene.things
+def _carrier(things: Sequence[Thing], index: Mapping[str, int], i: int) -> int:
     k = i
     while True:
-        if world.is_body(things[k]):
+        if things[k].is_body:
             return k
         whole = things[k].whole
         if whole is None:

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
 import numpy as np
 
-from prolepsis.engine.robot_world import add_robot, posture, rule_contacts
-from prolepsis.geometry.shape import Triple
+from prolepsis.geometry.shape import IDENTITY, Quaternion, Triple, triple
 from prolepsis.geometry.solids import matter_of
 from prolepsis.log.things import Thing, friction_of
-from prolepsis.matter.walls.yielding_bowl import PANEL, add_panels
-from prolepsis.robots.hand import HAND
+from prolepsis.robots.hand import rotate
+from prolepsis.robots.turned import inverse, product
 from prolepsis.scene.running import MAX_STEP
-from prolepsis.scene.scene import HIDDEN_ROLES, Scene, robot_of_gripper
+from prolepsis.scene.scene import Scene
 from prolepsis.system.mujoco import mujoco
 from prolepsis.system.threads import one_thread
 from prolepsis.terms.errors import KnowledgeError
@@ -34,8 +32,6 @@ ROLLING_FRICTION = 2.0e-4
 """Resistance of a smooth shell to rolling, as a length [m]; a tenth of a millimetre is usual for hard round things."""
 SPINNING_FRICTION = 1.0e-3
 """Resistance to spinning on the spot, as a length [m]."""
-NEAR = 0.01
-"""Contacts of breakable things are detected at this distance [m], so that the substep shrinks before the impact."""
 MOST_MOVING, MOST_SOLIDS = 2000, 20_000
 """Things that move and solids of a scene: MuJoCo sets aside 1.6 kB for each pair of things, 6 GB for so many."""
 
@@ -61,12 +57,6 @@ class World:
         for name, value in self.posture.items():
             data.joint(name).qpos[0] = value
         return data
-
-    def is_body(self, thing: Thing) -> bool:
-        """Return whether a thing is a rigid body of its own at the start."""
-        if thing.name.split("/", 1)[0] in self.scene.robots and thing.whole is not None:
-            return True
-        return bool(thing.shape.geoms) and not thing.roles & HIDDEN_ROLES
 
     def xml(self) -> str:
         """Return the world file (MJCF)."""
@@ -95,31 +85,20 @@ def compile_world(scene: Scene) -> World:
     # MuJoCo would silently start again after a divergence; the run must end as invalid instead.
     option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
     spec.worldbody.add_light(pos=[0, 0, 3], castshadow=True)
-    ranks = _friction_ranks(scene)
+    making = _Making(spec=spec, scene=scene, ranks=_friction_ranks(scene))
     start: dict[str, float] = {}
-    arms = [arm.name for robot in scene.robots.values() for arm in robot.arms]
-    for name, robot in scene.robots.items():
-        add_robot(spec, robot, scene.thing(name), arms)
-        rule_contacts(spec, scene, name, lambda geom, thing: _rule_contact(geom, thing, ranks, rolls=False))
-        start |= posture(robot, name, scene)
+    for kind in scene.kinds:
+        start |= kind.attach(making)
     for thing in scene.things:
-        on_robot = thing.name.split("/", 1)[0] in scene.robots
-        if thing.shape.geoms and not (thing.roles & (HIDDEN_ROLES | {PANEL})) and not on_robot:
-            add_body(spec, thing, ranks)
-    for thing in scene.things:
-        if parts := tuple(part for part in scene.parts(thing.name) if PANEL in part.roles):
-            add_panels(spec, thing, parts, partial(add_geom, spec, ranks=ranks), MAX_STEP)
-    for thing in scene.things:
-        if "Gripper" in thing.roles and robot_of_gripper(scene, thing) is None:
-            HAND.add_joints(spec, thing.name, thing.orientation)
-    for thing in scene.things:
-        if "Breakable" in thing.roles:
-            _add_pairs(spec, scene, thing)
+        if thing.is_body and spec.body(thing.name) is None:
+            making.add_body(thing)
+    for kind in scene.kinds:
+        kind.edit(making)
     try:
         model = spec.compile()
     except ValueError as error:
         raise KnowledgeError(f"the world cannot be built: {' '.join(str(error).split())}") from None
-    world = World(scene=scene, spec=spec, model=model, ranks=ranks, posture=start)
+    world = World(scene=scene, spec=spec, model=model, ranks=making.ranks, posture=start)
     _refuse_overlaps(scene, model, world.start(model))
     return world
 
@@ -144,25 +123,46 @@ def _friction_ranks(scene: Scene) -> dict[float, int]:
     return {value: rank for rank, value in enumerate(values)}
 
 
-def add_body(spec: Any, thing: Thing, ranks: Mapping[float, int], *, name: str | None = None) -> Any:
-    """Add one thing to the spec as a body with its geoms, and return the body."""
-    parent = spec.worldbody
-    position, orientation = thing.position, thing.orientation
-    part = HAND.part_of(thing)
-    if part.endswith("_finger"):
-        parent = spec.body(f"{thing.whole}/palm")
-        palm_position, palm_orientation = np.asarray(parent.pos), np.asarray(parent.quat)
-        inverse = np.zeros(4)
-        mujoco.mju_negQuat(inverse, palm_orientation)
-        local = np.zeros(3)
-        mujoco.mju_rotVecQuat(local, np.asarray(thing.position) - palm_position, inverse)
-        position, orientation = (float(local[0]), float(local[1]), float(local[2])), (1.0, 0.0, 0.0, 0.0)
-    body = parent.add_body(name=name or thing.name, pos=list(position), quat=list(orientation))
-    if not thing.fixed and not part:
-        body.add_freejoint(name=name or thing.name)
-    for k, mass in enumerate(_masses(thing)):
-        add_geom(spec, body, thing, k, ranks, mass=mass)
-    return body
+@dataclass(frozen=True, kw_only=True, slots=True)
+class _Making:
+    """A world while it is built."""
+
+    spec: Any
+    scene: Scene
+    ranks: Mapping[float, int]
+    """MuJoCo priority of each friction."""
+
+    def add_body(self, thing: Thing) -> None:
+        """Add one thing as a body with its geoms, on what it is mounted on."""
+        parent, position, orientation = self.spec.worldbody, thing.position, thing.orientation
+        if thing.mount.by == "joints" and thing.mount.to is not None:
+            parent = self.spec.body(thing.mount.to)
+            position, orientation = _seen_from(self.scene.thing(thing.mount.to), thing)
+        body = parent.add_body(name=thing.name, pos=list(position), quat=list(orientation))
+        if thing.mount.by == "nothing":
+            body.add_freejoint(name=thing.name)
+        for k, mass in enumerate(_masses(thing)):
+            add_geom(self.spec, body, thing, k, self.ranks, mass=mass)
+
+    def rule_contact(self, geom: Any, thing: Thing, *, rolls: bool) -> None:
+        """Give a geom of a thing its friction and softness, and resistance to rolling where it rolls."""
+        _rule_contact(geom, thing, self.ranks, rolls=rolls)
+
+    def add_pair(self, first: str, second: str, friction: float, gap: float) -> None:
+        """Give two geoms a contact of their own, which is found from a distance of ``gap`` on [m]."""
+        pair = self.spec.add_pair(name=f"{first}:{second}", geomname1=first, geomname2=second)
+        pair.condim = 6
+        pair.friction = [friction, friction, SPINNING_FRICTION, ROLLING_FRICTION, ROLLING_FRICTION]
+        pair.gap = gap
+        pair.solref = list(SMALL_SOLREF)
+
+
+def _seen_from(holder: Thing, thing: Thing) -> tuple[Triple, Quaternion]:
+    """Return the pose of a thing in the frame of what it hangs on."""
+    back = inverse(holder.orientation)
+    away = np.asarray(thing.position) - np.asarray(holder.position)
+    same = thing.orientation == holder.orientation
+    return triple(rotate(back, triple(away))), IDENTITY if same else product(back, thing.orientation)
 
 
 def _masses(thing: Thing) -> list[float]:
@@ -208,7 +208,7 @@ def add_geom(
 
 def _rule_contact(made: Any, thing: Thing, ranks: Mapping[float, int], *, rolls: bool) -> None:
     """Give a geom of a thing its friction and softness."""
-    small = bool(thing.roles & HIDDEN_ROLES)
+    small = thing.emerges
     friction = friction_of(thing)
     rolling = thing.quantities.get("rollingFriction", ROLLING_FRICTION)
     made.friction = [friction, SPINNING_FRICTION, rolling]
@@ -216,28 +216,6 @@ def _rule_contact(made: Any, thing: Thing, ranks: Mapping[float, int], *, rolls:
     made.priority = ranks.get(friction, 0)
     made.solref = list(SMALL_SOLREF if small else SMOOTH_SOLREF)
     made.solimp = list(SMALL_SOLIMP if small else SMOOTH_SOLIMP)
-
-
-def _add_pairs(spec: Any, scene: Scene, thing: Thing) -> None:
-    """Give a breakable thing an explicit contact pair with everything else; breaking sets its stiffness."""
-    for other in scene.things:
-        if other is thing or not other.shape.geoms or other.roles & HIDDEN_ROLES:
-            continue
-        if "Breakable" in other.roles and other.name < thing.name:
-            continue
-        friction = min(friction_of(thing), friction_of(other))
-        for i in range(len(thing.shape.geoms)):
-            # Where a wall has panels, they are what is touched.
-            for j in range(1 if "panelCount" in other.quantities else len(other.shape.geoms)):
-                pair = spec.add_pair(
-                    name=f"{thing.name}/{i}:{other.name}/{j}",
-                    geomname1=f"{thing.name}/{i}",
-                    geomname2=f"{other.name}/{j}",
-                )
-                pair.condim = 6
-                pair.friction = [friction, friction, SPINNING_FRICTION, ROLLING_FRICTION, ROLLING_FRICTION]
-                pair.gap = NEAR
-                pair.solref = list(SMALL_SOLREF)
 
 
 def _refuse_overlaps(scene: Scene, model: Any, data: Any) -> None:

@@ -6,19 +6,24 @@ A folder may come from a stranger who has sealed it well, so nothing beyond this
 from __future__ import annotations
 
 import itertools
+from collections.abc import Collection
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from prolepsis.geometry.shape import GEOM_TYPES, Shape
+from prolepsis.log.happenings import DETACHMENT, DETACHMENT_COLUMNS, Happenings
 from prolepsis.log.log import Log
 from prolepsis.log.things import Thing
+from prolepsis.terms.errors import brief, brief_list
 
 MOST_GEOMS, MOST_POINTS = 2_000, 10_000
 """Solids of a thing, and points of its profile."""
 MOST_ACTIONS = 20_000
 """More than one in each 0.1 s of the longest run; to read and recognize them takes four seconds."""
+MOST_TYPES, LONGEST_NAME = 100, 60
+"""Types of happenings, and letters of the name of one."""
 FARTHEST = 1e10
 """MuJoCo calls a coordinate beyond this unstable (``mjMAXVAL``) [m]."""
 UNIT = 1e-3
@@ -46,30 +51,54 @@ def check_log(log: Log) -> None:
     if lengths.size and np.abs(lengths - 1.0).max() > UNIT:
         raise ValueError("poses: a quaternion is not of unit length")
     _check_range("carrier", log.carrier, -1, count)
-    contacts, bonds, broken, particles = log.contacts, log.bonds, log.detachments, log.particles
+    contacts, bonds, particles = log.contacts, log.bonds, log.particles
     _check_ascending("contacts", contacts.tick, ticks)
-    _check_ascending("detachments", broken.tick, ticks)
     for name in ("force", "normal", "point", "peak"):
         _check_numbers(f"contacts: {name}", getattr(contacts, name))
     for what, table, names in (
         ("contacts", contacts, ("a", "b")),
         ("bonds", bonds, ("a", "b")),
-        ("detachments", broken, ("thing", "a", "b")),
     ):
         for name in names:
             _check_range(f"{what}: {name}", getattr(table, name), 0, count)
-    _check_numbers("detachments: force", broken.force)
     _check_range("bonds: start", bonds.start, 0, ticks + 1)
     _check_range("bonds: end", bonds.end, 0, ticks + 1)
     for name in ("position", "mass", "volume"):
         _check_numbers(f"particles: {name}", getattr(particles, name))
     if len(particles.stuff) and not 0.0 < particles.spacing < FARTHEST:
         raise ValueError(f"particles: a spacing of {particles.spacing} m is not positive")
+    check_types(log.happenings)
+    for type, each in log.happenings.items():
+        _check_happenings(type, each, ticks, count)
     for name, series in log.channels.items():
         _check_numbers(f"channel {name}", series)
     for action in log.actions:
         if not 0 <= action.start <= action.end <= ticks:
             raise ValueError(f"an action from tick {action.start} to {action.end} is not within the {ticks} ticks")
+
+
+def check_types(happenings: Collection[str]) -> None:
+    """Check names of types of happenings, each of which becomes a part of the name of a file.
+
+    Raises:
+        ValueError: If one is no plain name.
+    """
+    if len(happenings) > MOST_TYPES:
+        raise ValueError(f"there are {len(happenings)} types of happenings; allowed: {MOST_TYPES}")
+    for type in happenings:
+        if not (type.isascii() and type.isidentifier() and len(type) <= LONGEST_NAME):
+            raise ValueError(f"{brief(repr(type))} is no type of happenings; allowed: letters, digits and _")
+
+
+def _check_happenings(type: str, happenings: Happenings, ticks: int, count: int) -> None:
+    _check_ascending(f"{type}s", happenings.tick, ticks)
+    for name, column in happenings.things.items():
+        _check_range(f"{type}s: {name}", column, 0, count)
+    for name, column in happenings.numbers.items():
+        _check_numbers(f"{type}s: {name}", column)
+    names = (*happenings.things, *happenings.numbers)
+    if type == DETACHMENT and names and sorted(names) != sorted(DETACHMENT_COLUMNS):
+        raise ValueError(f"{type}s have {brief_list(names)}; needed: {', '.join(DETACHMENT_COLUMNS)}")
 
 
 def _check_things(things: tuple[Thing, ...]) -> None:
@@ -83,6 +112,9 @@ def _check_things(things: tuple[Thing, ...]) -> None:
                 raise ValueError(f"{name}: is a part of {above}, which is no thing or a part of itself")
             seen.add(above)
             above = wholes[above]
+    for thing in things:
+        if thing.mount.to is not None and (thing.mount.to not in wholes or thing.mount.by != "joints"):
+            raise ValueError(f"{thing.name}: hangs on {brief(thing.mount.to)}, which is no thing, or not by joints")
     for thing in things:
         _check_numbers(f"{thing.name}: pose", np.array((*thing.position, *thing.orientation), dtype=np.float64))
         _check_shape(thing.name, thing.shape)

@@ -12,10 +12,11 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from prolepsis.geometry.shape import Geom, Hole, Shape, Surface, Triple
 from prolepsis.log import particle_tables, tables
-from prolepsis.log.checks import check_log
+from prolepsis.log.checks import check_log, check_types
+from prolepsis.log.happenings import Happenings
 from prolepsis.log.log import Action, Log, Particles
 from prolepsis.log.sealed import read_sealed, read_text, write_json, write_sealed
-from prolepsis.log.things import Thing
+from prolepsis.log.things import Mount, Thing
 from prolepsis.terms.errors import InputError, LogError, brief
 from prolepsis.terms.terms import Term, format_value, parse_term
 
@@ -23,7 +24,7 @@ HEAD = "log.json"
 """Tick, gravity, things, actions and the spacing of the particles: what is no column."""
 _EXACTLY = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
 _TICKS, _POSES, _CONTACTS = "ticks.parquet", "poses.parquet", "contacts.parquet"
-_BONDS, _DETACHMENTS = "bonds.parquet", "detachments.parquet"
+_BONDS, _HAPPENINGS = "bonds.parquet", "happenings_{}.parquet"
 _FRAMES, _KINDS, _PLACES = "particle_frames.parquet", "particle_kinds.parquet", "particles.parquet"
 
 
@@ -41,6 +42,12 @@ class _Particles(BaseModel):
     spacing: float
 
 
+class _Happenings(BaseModel):
+    model_config = _EXACTLY
+    things: tuple[str, ...]
+    numbers: tuple[str, ...]
+
+
 class _Head(BaseModel):
     """What the JSON file of a log says."""
 
@@ -49,6 +56,7 @@ class _Head(BaseModel):
     gravity: Triple
     things: tuple[Thing, ...]
     actions: tuple[_Action, ...]
+    happenings: dict[str, _Happenings]
     particles: _Particles | None = None
 
 
@@ -85,6 +93,10 @@ def write_log_files(log: Log, path: Path) -> None:
         "gravity": log.gravity,
         "things": [_plain(thing) for thing in log.things],
         "actions": [_plain_action(action) for action in log.actions],
+        "happenings": {
+            type: {"things": list(each.things), "numbers": list(each.numbers)}
+            for type, each in sorted(log.happenings.items())
+        },
         "particles": {"spacing": log.particles.spacing} if _has_particles(log) else None,
     }
     write_json(path / HEAD, head)
@@ -105,7 +117,12 @@ def _tables_of(log: Log) -> Iterator[tuple[str, tables.Columns, tables.Kinds]]:
     yield _POSES, tables.pose_columns(log.poses, log.carrier), tables.POSES
     yield _CONTACTS, tables.contact_columns(log.contacts), tables.CONTACTS
     yield _BONDS, tables.bond_columns(log.bonds), tables.BONDS
-    yield _DETACHMENTS, tables.detachment_columns(log.detachments), tables.DETACHMENTS
+    for type, each in sorted(log.happenings.items()):
+        yield (
+            _HAPPENINGS.format(type),
+            tables.happening_columns(each),
+            tables.happening_kinds(each.things, each.numbers),
+        )
     if _has_particles(log):
         yield _FRAMES, particle_tables.frame_columns(log.particles), particle_tables.FRAMES
         yield _KINDS, particle_tables.kind_columns(log.particles), particle_tables.KINDS
@@ -122,7 +139,9 @@ def read_log_files(path: Path) -> Log:
     try:
         head = _Head.model_validate_json(read_text(path / HEAD))
         things = head.things
-        dry, wet = (_TICKS, _POSES, _CONTACTS, _BONDS, _DETACHMENTS), (_FRAMES, _KINDS, _PLACES)
+        check_types(head.happenings)
+        reported = [_HAPPENINGS.format(type) for type in head.happenings]
+        dry, wet = (_TICKS, _POSES, _CONTACTS, _BONDS, *reported), (_FRAMES, _KINDS, _PLACES)
         tables.check_unpacked_sizes(path / name for name in (*dry, *(wet if head.particles else ())))
         ticks = tables.read_table(path / _TICKS)
         time = ticks.pop("time")
@@ -135,7 +154,7 @@ def read_log_files(path: Path) -> Log:
             carrier=carrier,
             contacts=tables.contacts_from(tables.read_table(path / _CONTACTS, tables.CONTACTS)),
             bonds=tables.bonds_from(tables.read_table(path / _BONDS, tables.BONDS)),
-            detachments=tables.detachments_from(tables.read_table(path / _DETACHMENTS, tables.DETACHMENTS)),
+            happenings={type: _happenings(path, type, each) for type, each in head.happenings.items()},
             particles=_particles(head.particles, path, len(things), len(time)),
             channels=ticks,
             actions=tuple(_action(row) for row in head.actions),
@@ -158,6 +177,11 @@ def read_log_files(path: Path) -> Log:
         raise LogError(f"{path}: its log is malformed: {lacking}{brief(error, 200)}") from None
 
 
+def _happenings(path: Path, type: str, head: _Happenings) -> Happenings:
+    kinds = tables.happening_kinds(head.things, head.numbers)
+    return tables.happenings_from(tables.read_table(path / _HAPPENINGS.format(type), kinds), head.things, head.numbers)
+
+
 def _has_particles(log: Log) -> bool:
     return bool(len(log.particles.stuff) or len(log.particles.tick))
 
@@ -175,7 +199,7 @@ def _particles(head: _Particles | None, path: Path, thing_count: int, tick_count
 
 def _plain(value: Any) -> Any:
     """Return a thing or what its shape consists of as JSON values, fields at their defaults included."""
-    if isinstance(value, Thing | Shape | Geom | Hole | Surface):
+    if isinstance(value, Thing | Mount | Shape | Geom | Hole | Surface):
         return {each.name: _plain(getattr(value, each.name)) for each in fields(value)}
     if isinstance(value, frozenset):
         return sorted(cast("frozenset[str]", value))

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from prolepsis.geometry.shape import FloatArray, IntArray, Triple
+from prolepsis.log.happenings import DETACHMENT, Happenings
 from prolepsis.log.things import Thing
 from prolepsis.terms.terms import Term
 
@@ -78,6 +79,19 @@ class Detachments:
     force: FloatArray = field(default_factory=lambda: np.zeros(0))
     """Greatest contact force on the thing when the joint gave way [N], shape (D,)."""
 
+    @classmethod
+    def of(cls, happenings: Happenings | None) -> Detachments:
+        """Return what the happenings of the type ``detachment`` say."""
+        if happenings is None:
+            return cls()
+        thing, a, b = (happenings.things[name] for name in ("thing", "a", "b"))
+        return cls(tick=happenings.tick, thing=thing, a=a, b=b, force=happenings.numbers["force"])
+
+    def happenings(self) -> dict[str, Happenings]:
+        """Return them as happenings."""
+        things = {"thing": self.thing, "a": self.a, "b": self.b}
+        return {DETACHMENT: Happenings(tick=self.tick, things=things, numbers={"force": self.force})}
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Particles:
@@ -137,8 +151,8 @@ class Log:
     """Touching pairs with forces."""
     bonds: Bonds = Bonds()
     """Joints between things."""
-    detachments: Detachments = Detachments()
-    """Broken joints of breakable things."""
+    happenings: Mapping[str, Happenings] = field(default_factory=dict[str, Happenings])
+    """What kinds of matter reported, by type: a ``detachment`` is one."""
     particles: Particles = Particles()
     """The liquids."""
     channels: Mapping[str, FloatArray] = field(default_factory=dict[str, FloatArray])
@@ -148,6 +162,11 @@ class Log:
     """What the control program did."""
     gravity: Triple = (0.0, 0.0, -9.81)
     """Gravitational acceleration, world frame [m/s^2]."""
+
+    @property
+    def detachments(self) -> Detachments:
+        """Bonds of breakable things that gave way."""
+        return Detachments.of(self.happenings.get(DETACHMENT))
 
     @property
     def tick_count(self) -> int:

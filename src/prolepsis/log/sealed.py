@@ -24,7 +24,7 @@ from prolepsis.system.text_files import path_of
 from prolepsis.terms.errors import InputError, LogError, Note, brief
 
 FORMAT = "prolepsis"
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2
 """Raised when a reader of an older version could no longer read what is written."""
 
 MANIFEST = "manifest.json"

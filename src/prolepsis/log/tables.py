@@ -14,7 +14,8 @@ import pyarrow.parquet as parquet  # pyright: ignore[reportMissingTypeStubs]
 
 from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.log import particle_tables
-from prolepsis.log.log import Bonds, Contacts, Detachments
+from prolepsis.log.happenings import Happenings
+from prolepsis.log.log import Bonds, Contacts
 from prolepsis.terms.errors import InputError, LogError, brief
 
 Columns = Mapping[str, npt.NDArray[Any]]
@@ -42,7 +43,6 @@ _TOUCHING = tuple(f"{name}_{axis}" for name in _VECTORS for axis in "xyz")
 POSES: Kinds = {"thing": "int64", "carrier": "int64", **dict.fromkeys(POSE_COLUMNS, "double")}
 CONTACTS: Kinds = {**dict.fromkeys(("tick", "a", "b"), "int64"), **dict.fromkeys((*_TOUCHING, "peak"), "double")}
 BONDS: Kinds = dict.fromkeys(("a", "b", "start", "end"), "int64")
-DETACHMENTS: Kinds = {**dict.fromkeys(("tick", "thing", "a", "b"), "int64"), "force": "double"}
 
 
 def write_table(file: Path, columns: Columns, kinds: Kinds | None = None) -> int:
@@ -237,19 +237,20 @@ def bonds_from(columns: Columns) -> Bonds:
     return Bonds(a=columns["a"], b=columns["b"], start=columns["start"], end=columns["end"])
 
 
-def detachment_columns(detached: Detachments) -> Columns:
-    """Return broken joints as columns."""
-    return {
-        "tick": detached.tick,
-        "thing": detached.thing,
-        "a": detached.a,
-        "b": detached.b,
-        "force": detached.force,
-    }
+def happening_columns(happenings: Happenings) -> Columns:
+    """Return happenings of one type as columns: tick, arguments, numbers."""
+    return {"tick": happenings.tick, **happenings.things, **happenings.numbers}
 
 
-def detachments_from(columns: Columns) -> Detachments:
-    """Return the broken joints whose columns these are."""
-    return Detachments(
-        tick=columns["tick"], thing=columns["thing"], a=columns["a"], b=columns["b"], force=columns["force"]
+def happening_kinds(things: Iterable[str], numbers: Iterable[str]) -> Kinds:
+    """Return what the columns of happenings consist of, by the names of their arguments and numbers."""
+    return {**dict.fromkeys(("tick", *things), "int64"), **dict.fromkeys(numbers, "double")}
+
+
+def happenings_from(columns: Columns, things: Iterable[str], numbers: Iterable[str]) -> Happenings:
+    """Return the happenings whose columns these are."""
+    return Happenings(
+        tick=columns["tick"],
+        things={name: columns[name] for name in things},
+        numbers={name: columns[name] for name in numbers},
     )

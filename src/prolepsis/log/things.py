@@ -6,13 +6,33 @@ containment, rendering and logs of other origin share it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from typing import Literal
 
 from prolepsis.geometry.shape import IDENTITY, Quaternion, Shape, Triple
 
 DEFAULT_FRICTION = 0.5
 """Sliding friction of a thing of which nothing is known [1]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mount:
+    """How a thing is held in the world at the start."""
+
+    by: Literal["nothing", "world", "joints", "whole"]
+    """``nothing``: it moves freely; ``world``: it never moves; ``joints``: it hangs on another body; ``whole``: it
+    is no body of its own, but moves with what it is a part of, until that falls apart."""
+    to: str | None = None
+    """What it hangs on by joints; None for the world."""
+
+
+FREE, FIXED, WITHIN = Mount("nothing"), Mount("world"), Mount("whole")
+
+
+def jointed(to: str | None = None) -> Mount:
+    """Return the mount of what hangs by joints on the thing called ``to``, or on the world."""
+    return Mount("joints", to)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -36,10 +56,33 @@ class Thing:
     roles: frozenset[str] = frozenset()
     """Classes that recognition and phenomena go by: ``Gripper``, ``Container``, ``Breakable``, ``Stuff``,
     ``Piece`` (appears when its whole breaks), ``Floor`` ..."""
-    fixed: bool = False
-    """True for what never moves (floor, table, wall)."""
+    mount: Mount = FREE
+    """How it is held: a floor, a table or a wall is ``FIXED``."""
     quantities: Mapping[str, float] = field(default_factory=dict[str, float])
     """Named quantities in SI units: friction, breakingForce, ..."""
+
+    @property
+    def fixed(self) -> bool:
+        """Whether it never moves."""
+        return self.mount.by == "world"
+
+    @property
+    def is_body(self) -> bool:
+        """Whether it is a rigid body of its own at the start."""
+        return self.mount.by == "joints" or (self.mount.by != "whole" and bool(self.shape.geoms))
+
+    @property
+    def emerges(self) -> bool:
+        """Whether it becomes a body when its whole falls apart: a shard, a kernel."""
+        return self.mount.by == "whole" and bool(self.shape.geoms)
+
+
+def own_solids(thing: Thing, things: Iterable[Thing]) -> tuple[int, ...]:
+    """Return which solids of a thing are its own: others are moved, and touched, as those of a part on joints."""
+    moved = [
+        geom for part in things if part.whole == thing.name and part.mount.by == "joints" for geom in part.shape.geoms
+    ]
+    return tuple(k for k, geom in enumerate(thing.shape.geoms) if geom not in moved)
 
 
 def friction_of(thing: Thing) -> float:

@@ -1,24 +1,22 @@
-"""The augmented simulation: one controller a file, attached to things by what the ontology says of them."""
+"""The kinds that there are: robots, hands, and those of matter, found where they lie.
+
+Each folder here has a file ``kind.py`` in which ``KIND`` is a kind of matter; any other file here is one by itself.
+"""
 
 from __future__ import annotations
 
-from prolepsis.matter.films import sticking, wetting
-from prolepsis.matter.liquids import flowing
-from prolepsis.matter.phenomenon import Attach, Detachment, Draw, Phenomenon
-from prolepsis.matter.shells import breaking, membrane, opening
-from prolepsis.matter.sponges import absorbing
-from prolepsis.matter.walls import denting
+import importlib
+import pkgutil
 
-PHENOMENA: tuple[Attach, ...] = (
-    breaking.attach,
-    denting.attach,
-    flowing.attach,
-    opening.attach,
-    membrane.attach,
-    absorbing.attach,
-    wetting.attach,
-    sticking.attach,
-)
-"""All phenomena in the order in which they run; a later one may read what an earlier one did."""
+import prolepsis.matter
+from prolepsis.robots.kinds import FreeHands, Robots
+from prolepsis.scene.kind import Kind
+from prolepsis.scene.robot import Robot
 
-__all__ = ["PHENOMENA", "Attach", "Detachment", "Draw", "Phenomenon"]
+
+def known_kinds(robot: Robot | None = None) -> tuple[Kind, ...]:
+    """Return all kinds; ``robot`` is what an individual of class Robot is whose class says no more."""
+    found = pkgutil.iter_modules(prolepsis.matter.__path__, "prolepsis.matter.")
+    names = [f"{module.name}.kind" if module.ispkg else module.name for module in found]
+    modules = [importlib.import_module(name) for name in names if name != __name__]
+    return (Robots(robot), FreeHands(), *(module.KIND for module in modules))

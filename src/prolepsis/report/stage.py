@@ -8,15 +8,12 @@ import numpy as np
 
 from prolepsis.geometry.shape import BoolArray, FloatArray, Geom
 from prolepsis.log.log import Log
-from prolepsis.log.things import Thing
+from prolepsis.log.things import Thing, own_solids
 from prolepsis.report.droplets import Droplets, Wet
 from prolepsis.report.framing import corners
 from prolepsis.report.lathe import turned_surface
 from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.errors import InputError, brief
-
-APPEARING = frozenset({"Piece", "Blob"})
-"""Roles of what is seen only once its whole has come apart."""
 
 PLAIN = (0.7, 0.7, 0.7, 1.0)
 COLOURS = {
@@ -59,7 +56,7 @@ class Stage:
         self._parents = {thing.name: thing.whole for thing in log.things}
         self._index = {thing.name: i for i, thing in enumerate(log.things)}
         self._ancestors = [self._chain(thing) for thing in log.things]
-        self._appears = [bool(thing.roles & APPEARING) for thing in log.things]
+        self._appears = [thing.emerges for thing in log.things]
         spec: Any = mujoco.MjSpec()
         _dress(spec, width, height)
         for i, thing in enumerate(log.things):
@@ -166,9 +163,10 @@ class Stage:
         return np.min(ends, axis=(0, 1)), np.max(ends, axis=(0, 1))
 
     def _is_vessel(self, i: int) -> bool:
-        """Return whether a thing is an open container drawn as glass: no egg, nor what is drawn by its panels."""
+        """Return whether a thing is an open container drawn as glass: none that breaks or is drawn by parts."""
         thing = self.log.things[i]
-        return "Container" in thing.roles and "Breakable" not in thing.roles and "panelCount" not in thing.quantities
+        whole = len(own_solids(thing, self.log.things)) == len(thing.shape.geoms)
+        return "Container" in thing.roles and "Breakable" not in thing.roles and whole
 
     def _chain(self, thing: Thing) -> frozenset[int]:
         chain: set[int] = set()
@@ -181,16 +179,16 @@ class Stage:
     def _add(self, spec: Any, i: int, thing: Thing) -> None:
         body = spec.worldbody.add_body(name=f"thing{i}", mocap=True)
         look = {"rgba": self._colour(thing), "contype": 0, "conaffinity": 0, "density": 0}
-        # A shell's inertia is defined for the thinnest piece; only the picture matters here.
-        shell = {"inertia": mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL}
-        # A wall of panels is drawn panel by panel, and of the whole only the foot.
-        panels = "panelCount" in thing.quantities
-        if thing.shape.profile and not panels:
+        # The inertia of a hollow mesh is defined for the thinnest piece; only the picture matters here.
+        hollow = {"inertia": mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL}
+        own = own_solids(thing, self.log.things)
+        if thing.shape.profile and len(own) == len(thing.shape.geoms):
             vertices, triangles = turned_surface(thing.shape)
-            spec.add_mesh(name=f"mesh{i}", uservert=vertices.ravel(), userface=triangles.ravel(), **shell)
+            spec.add_mesh(name=f"mesh{i}", uservert=vertices.ravel(), userface=triangles.ravel(), **hollow)
             body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=f"mesh{i}", material="matt", **look)
             return
-        for k, geom in enumerate(thing.shape.geoms[:1] if panels else thing.shape.geoms):
+        for k in own:
+            geom = thing.shape.geoms[k]
             solid = body.add_geom(
                 type=getattr(mujoco.mjtGeom, f"mjGEOM_{geom.type.upper()}"),
                 size=_drawn_size(geom),
@@ -200,7 +198,7 @@ class Stage:
             )
             if geom.type == "mesh":
                 name = f"mesh{i}.{k}"
-                spec.add_mesh(name=name, uservert=np.asarray(geom.vertices).ravel(), **shell)
+                spec.add_mesh(name=name, uservert=np.asarray(geom.vertices).ravel(), **hollow)
                 solid.meshname = name
             solid.material = "ground" if geom.type == "plane" else "matt"
 

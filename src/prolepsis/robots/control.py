@@ -81,6 +81,15 @@ class Controls:
         for hand in self.hands.values():
             hand.act(state, dt)
 
+    def publish(self, state: Running) -> None:
+        """Tell what the grippers do and feel."""
+        for name, hand in self.hands.items():
+            gripper = hand.gripper
+            state.set_attribute(name, "opening", gripper.opening)
+            state.set_attribute(name, "gripper", float(gripper.motion))
+            state.set_attribute(name, "pad_force", gripper.pad_force)
+            state.set_attribute(name, "command", gripper.command)
+
     def bind(self, state: Running) -> None:
         """Look everything up in a model that is new."""
         for each in self._all():

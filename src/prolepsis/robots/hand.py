@@ -13,11 +13,9 @@ from typing import Any
 import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, Geom, Quaternion, Shape, Triple
-from prolepsis.log.things import Thing
+from prolepsis.log.things import WITHIN, Thing, jointed
 from prolepsis.system.mujoco import mujoco
 
-PARTS = ("palm", "left_finger", "right_finger")
-"""Parts of a free hand: the palm flies, the fingers slide in it."""
 PART_KIND = "Part"
 """Class of the parts of hands and robots."""
 
@@ -90,6 +88,7 @@ class Hand:
             orientation=orientation,
             mass=total,
             roles=frozenset({"Gripper"}),
+            mount=WITHIN,
             quantities={
                 "opening": opening,
                 "maxOpening": self.max_opening,
@@ -126,15 +125,11 @@ class Hand:
                     orientation=orientation,
                     mass=mass,
                     whole=name,
+                    mount=jointed(f"{name}/palm" if part != "palm" else None),
                     quantities={"friction": friction},
                 )
             )
         return tuple(made)
-
-    def part_of(self, thing: Thing) -> str:
-        """Return which part of a free hand a thing is: ``palm``, ``left_finger``, ``right_finger``, or empty."""
-        whole, _, part = thing.name.rpartition("/")
-        return part if part in PARTS and thing.kind == PART_KIND and whole == thing.whole else ""
 
     def add_joints(self, spec: Any, name: str, orientation: Quaternion) -> None:
         """Give the bodies of the hand called ``name`` in ``spec`` their joints, coupling and motors."""

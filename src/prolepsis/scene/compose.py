@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -11,18 +12,12 @@ import numpy as np
 from prolepsis.geometry.shape import Quaternion, Shape
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.knowledge.situation import MOST_INDIVIDUALS
-from prolepsis.log.things import Thing
-from prolepsis.matter.liquids.liquids import is_liquid, liquid_thing, place_of, refuse_idle
-from prolepsis.matter.shells.egg_inside import egg_pools
-from prolepsis.matter.shells.shelled import shelled_things
-from prolepsis.matter.walls.yielding_bowl import bowl_things
-from prolepsis.robots.hand import HAND
+from prolepsis.log.things import FIXED, FREE, Thing
 from prolepsis.scenario.file import DEFAULT_PARTICLES
 from prolepsis.scene.coherence import refuse_nonsense
+from prolepsis.scene.kind import Draft, Individuals, Kind, Made, Roles
 from prolepsis.scene.placing import resting_height
-from prolepsis.scene.robot import Robot
-from prolepsis.scene.robots import robot_of, robot_things
-from prolepsis.scene.scene import HIDDEN_ROLES, Pool, Scene
+from prolepsis.scene.scene import Pool, Scene
 from prolepsis.scene.shapes import SHAPES
 from prolepsis.scene.shapes.holes import refuse_holes
 from prolepsis.scene.shapes.mesh import mesh
@@ -30,22 +25,8 @@ from prolepsis.system.mujoco import mujoco
 from prolepsis.system.threads import one_thread
 from prolepsis.terms.errors import KnowledgeError, brief_list
 
-ROLES = (
-    "Gripper",
-    "Container",
-    "Breakable",
-    "Stuff",
-    "Liquid",
-    "Furniture",
-    "Floor",
-    "Table",
-    "Egg",
-    "EggShell",
-    "WetThing",
-    "DirtyThing",
-    "YieldingBowl",
-)
-"""Classes that physics or recognition goes by."""
+ROLES = frozenset({"Container", "Stuff", "Liquid", "Furniture", "Floor", "Table", "WetThing", "DirtyThing"})
+"""Classes that physics or recognition goes by, whatever the kinds."""
 COLOURS = {
     "Egg": (0.93, 0.84, 0.73, 1.0),
     "QuailEgg": (0.80, 0.72, 0.60, 1.0),
@@ -67,69 +48,71 @@ FEATURES = ("lid",)
 """What a shape may have or not."""
 ATTRIBUTES = {"wet": "WetThing", "dirty": "DirtyThing", "broken": "BrokenThing"}
 """Attributes that controllers may change, and the class of what has them at the start."""
-GRIPPER_SHAPE, ROBOT_SHAPE, MESH_SHAPE = "parallelGripper", "articulated", "mesh"
+MESH_SHAPE = "mesh"
 
 
 @one_thread()
-def compose(kb: KnowledgeBase, *, particles: int = DEFAULT_PARTICLES, robot: Robot | None = None) -> Scene:
+def compose(kb: KnowledgeBase, kinds: Sequence[Kind], *, particles: int = DEFAULT_PARTICLES) -> Scene:
     """Return the scene of a situation.
 
     Args:
         kb: The situation.
+        kinds: The kinds of matter, hands and robots that there may be.
         particles: Number of particles of the largest liquid.
-        robot: What an individual of class Robot is whose class says no more.
 
     Raises:
         KnowledgeError: If something has no shape or place that can be simulated.
     """
     if len(kb.objects) > MOST_INDIVIDUALS:
         raise KnowledgeError(f"the situation has {len(kb.objects)} individuals; allowed: {MOST_INDIVIDUALS}")
-    refuse_nonsense(kb)
+    kinds = sorted(kinds, key=lambda kind: kind.order)
+    flowing = {name for kind in kinds for name in kind.flowing(kb)}
     names = [name for name in kb.objects if kb.whole(name) is None]
-    liquids = [name for name in names if is_liquid(kb, name)]
-    wholes = [name for name in names if name not in liquids]
-    places = {name: place_of(kb, name) for name in liquids}
-    for name in wholes:
-        refuse_idle(kb, name)
+    wholes = [name for name in names if name not in flowing]
+    refuse_nonsense(kb, wholes)
+    for kind in kinds:
+        kind.refuse(kb)
+    roles = partial(_roles, kb, ROLES.union(*(kind.roles for kind in kinds)))
+    individuals = Individuals(kb=kb, roles=roles, bodiless=lambda name: _thing(kb, name, roles, None))
+    owners = {name: _owner(kb, name, kinds) for name in wholes}
     below = {subject: place for relation, subject, place in kb.relations() if relation == "on" and subject in wholes}
     # What is in something is lowered into it from above, as what is on something is lowered onto it.
     below |= {
         inside: vessel for relation, vessel, inside in kb.relations() if relation == "contains" and inside in wholes
     }
-    made: dict[str, tuple[Thing, ...]] = {}
-    robots = {name: robot_of(kb, name, robot) for name in wholes if kb.is_a(name, "Robot")}
-    for name, each in robots.items():
-        made[name] = robot_things(kb, each, _thing(kb, name), partial(_thing, kb))
-    wholes = [name for name in wholes if name not in robots]
-    for name in _supporters_first(wholes, below):
-        made[name] = _things_of(kb, name, made, below.get(name))
+    made: dict[str, Made] = {}
+    for name in [name for name in wholes if not owners[name].rests]:
+        made[name] = owners[name].parts(individuals, _thing(kb, name, roles, owners[name].shapes))
+    for name in _supporters_first([name for name in wholes if name not in made], below):
+        thing = _thing(kb, name, roles, owners[name].shapes)
+        if name in below:
+            thing = _put_on(thing, below[name], made[below[name]].things if below[name] in made else ())
+        made[name] = owners[name].parts(individuals, thing)
+    things = {name: each.things for name, each in made.items()}
     pools: tuple[Pool, ...] = ()
-    if liquids:
-        # The import takes longer than a scene without liquids.
-        from prolepsis.matter.liquids.filling import fill
-
-        flowing = [liquid_thing(kb, name, _roles(kb, name)) for name in liquids]
-        solids = {name: tuple(t for t in made[name] if not t.roles & HIDDEN_ROLES) for name in wholes}
-        filled, pools = fill(flowing, places, solids, particles)
-        made |= {each.name: (each,) for each in filled}
-    for name in wholes:
-        if kb.is_a(name, "Shelled"):
-            spacing = next((pool.spacing for pool in pools), None)
-            made[name], inside = _with_inside(made[name], spacing)
-            pools += inside
-    things = tuple(thing for name in names for thing in made[name])
-    return Scene(things=things, domain=kb.domain(), pools=pools, robots=robots)
+    for kind in kinds:
+        new, more = kind.fill(Draft(individuals=individuals, things=things, pools=pools, particles=particles))
+        things, pools = {**things, **new}, pools + more
+    return Scene(
+        things=tuple(thing for name in names for thing in things[name]),
+        domain=kb.domain(),
+        pools=pools,
+        parts_known=tuple(part for name in names if name in made for part in made[name].parts),
+        kinds=tuple(kinds),
+    )
 
 
-def _with_inside(things: tuple[Thing, ...], spacing: float | None) -> tuple[tuple[Thing, ...], tuple[Pool, ...]]:
-    """Return an egg with the volumes of its stuffs, and their particles."""
-    stuffs, pools = egg_pools(things[0], [thing for thing in things if "Liquid" in thing.roles], spacing)
-    known = {stuff.name: stuff for stuff in stuffs}
-    return tuple(known.get(thing.name, thing) for thing in things), pools
+def _owner(kb: KnowledgeBase, name: str, kinds: Sequence[Kind]) -> Kind:
+    """Return the kind that makes a whole; one that nobody claims stays as it is."""
+    claiming = [kind for kind in kinds if kind.claims is not None and kb.is_a(name, kind.claims)]
+    if len(claiming) > 1:
+        classes = brief_list(str(kind.claims) for kind in claiming)
+        raise KnowledgeError(f"{kb.place(name)}: {name} ({kb.kind(name)}) is each of {classes}; allowed: one of them")
+    return claiming[0] if claiming else Kind()
 
 
-def _roles(kb: KnowledgeBase, name: str) -> frozenset[str]:
-    return frozenset(c for c in kb.classes(name) if c in ROLES)
+def _roles(kb: KnowledgeBase, known: frozenset[str], name: str) -> frozenset[str]:
+    return frozenset(c for c in kb.classes(name) if c in known)
 
 
 def _supporters_first(names: list[str], below: dict[str, str]) -> list[str]:
@@ -145,39 +128,8 @@ def _supporters_first(names: list[str], below: dict[str, str]) -> list[str]:
     return ordered
 
 
-def _things_of(
-    kb: KnowledgeBase, name: str, made: dict[str, tuple[Thing, ...]], rests_on: str | None
-) -> tuple[Thing, ...]:
-    thing = _thing(kb, name)
-    under = made.get(rests_on, ()) if rests_on is not None else ()
-    if rests_on is not None:
-        thing = _put_on(thing, rests_on, under)
-    if kb.value(name, "shape").value == GRIPPER_SHAPE:
-        opening = kb.quantity(name, "opening")
-        if opening > HAND.max_opening:
-            raise KnowledgeError(f"{name}: opening {opening:g} m, allowed up to {HAND.max_opening:g} m")
-        hand = HAND.things(
-            name,
-            position=thing.position,
-            orientation=thing.orientation,
-            opening=opening,
-            friction=kb.quantity(name, "friction"),
-        )
-        whole = replace(
-            hand[0], roles=thing.roles, kind=thing.kind, quantities={**thing.quantities, **hand[0].quantities}
-        )
-        slippery = thing.quantities.get("frictionWhenWet")
-        known = {"frictionWhenWet": slippery} if slippery is not None else {}
-        return (whole, *(replace(part, quantities={**part.quantities, **known}) for part in hand[1:]))
-    if kb.is_a(name, "Shelled"):
-        return shelled_things(kb, thing, partial(_roles, kb))
-    if kb.is_a(name, "YieldingBowl"):
-        return bowl_things(thing)
-    return (thing,)
-
-
-def _thing(kb: KnowledgeBase, name: str) -> Thing:
-    """Return a whole as a thing at its stated place."""
+def _thing(kb: KnowledgeBase, name: str, roles: Roles, later: Collection[str] | None) -> Thing:
+    """Return a whole as a thing at its stated place; shapes that are built ``later`` are left out, at None all."""
     if not any(known == "shape" for known in kb.quantities(name)):
         raise KnowledgeError(f"{name} ({kb.kind(name)}) has no shape; state :shape, one of {', '.join(SHAPES)}")
     kind = kb.kind(name)
@@ -190,7 +142,7 @@ def _thing(kb: KnowledgeBase, name: str) -> Thing:
     if wet is not None and isinstance(wet[1].value, float):
         quantities["frictionWhenWet"] = wet[1].value
     fixed = kb.is_a(name, "Furniture")
-    built = Shape() if shape in (GRIPPER_SHAPE, ROBOT_SHAPE) else _built(kb, name, shape, quantities)
+    built = Shape() if later is None or shape in later else _built(kb, name, shape, quantities)
     if not fixed and built.geoms and "mass" not in quantities:
         raise KnowledgeError(f"{name} ({kind}) has no mass and no density to derive it from")
     default_height = 0.0
@@ -204,8 +156,8 @@ def _thing(kb: KnowledgeBase, name: str) -> Thing:
         position=(quantities.get("x", 0.0), quantities.get("y", 0.0), quantities.get("z", default_height)),
         orientation=orientation,
         mass=quantities.get("mass", 0.0),
-        roles=_roles(kb, name),
-        fixed=fixed,
+        roles=roles(name),
+        mount=FIXED if fixed else FREE,
         quantities=quantities,
     )
 
@@ -247,9 +199,9 @@ def _orientation(q: dict[str, float]) -> Quaternion:
 
 def _put_on(thing: Thing, name: str, under: tuple[Thing, ...]) -> Thing:
     """Return the thing lowered onto what it rests on; unless stated, its x and y are those of the supporter."""
-    solid = [t for t in under if t.shape.geoms and not t.roles & HIDDEN_ROLES]
+    solid = [t for t in under if t.shape.geoms and t.is_body]
     if not thing.shape.geoms:
-        raise KnowledgeError(f"{thing.name} is on {name}, but a gripper does not rest on anything; state its z")
+        raise KnowledgeError(f"{thing.name} is on {name}, but a {thing.kind} does not rest on anything; state its z")
     if not solid:
         raise KnowledgeError(f"{thing.name} is on {name}, which has no body to rest on")
     if "z" in thing.quantities:

@@ -90,3 +90,12 @@ class Robot:
     def arm(self, name: str) -> Arm:
         """Return the arm whose gripper is called ``name``; it must exist."""
         return next(arm for arm in self.arms if arm.name == name)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class RobotPart:
+    """What a thing of a scene is that is a robot."""
+
+    name: str
+    """The thing."""
+    robot: Robot

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from prolepsis.geometry.shape import FloatArray, IntArray, Quaternion, Triple
-from prolepsis.log.things import Thing
 from prolepsis.scene.particles import ParticleState
 from prolepsis.scene.scene import Scene
 
-MAX_STEP = 1.0e-3
+TICK = 1.0e-3
+"""The clock of a run and its log [s]."""
+MAX_STEP = TICK
 """Longest substep [s]: with nothing going on."""
 
 
@@ -70,10 +71,6 @@ class Running(Protocol):
     @property
     def scene(self) -> Scene:
         """What the run began with."""
-        ...
-
-    def is_body(self, thing: Thing) -> bool:
-        """Return whether a thing is a rigid body of its own at the start."""
         ...
 
     def attribute(self, name: str, attribute: str) -> float:

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any, TypeVar
 
 from prolepsis.geometry.shape import FloatArray, Quaternion, Triple
 from prolepsis.log.domain import Domain
 from prolepsis.log.things import Thing
-from prolepsis.scene.robot import Robot
+from prolepsis.scene.robot import Robot, RobotPart
 from prolepsis.terms.errors import UnknownNameError
 
-HIDDEN_ROLES = frozenset({"Piece", "Blob"})
-"""Things that are bodies of their own only after their whole has broken."""
+Part = TypeVar("Part")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -38,14 +38,21 @@ class Scene:
     """Wholes, parts, pieces and blobs."""
     pools: tuple[Pool, ...] = ()
     """The liquids that flow."""
+    parts_known: tuple[object, ...] = field(default=(), compare=False)
+    """What parts are, as values of a type of their own: a shard, a panel, a membrane."""
+    kinds: tuple[Any, ...] = field(default=(), compare=False)
+    """Each a ``Kind``: those that it was composed of, and that go on to act in the world and the run, in their order."""
     domain: Domain = Domain()
     """What is known of the individuals."""
     gravity: Triple = (0.0, 0.0, -9.81)
     """[m/s^2]"""
-    robots: Mapping[str, Robot] = field(default_factory=dict[str, Robot])
-    """What each robot is that has a model, by name; free hands are none of these."""
     folder: Path = Path()
     """Where the paths of files start that a plan names, while it is read."""
+
+    @property
+    def robots(self) -> Mapping[str, Robot]:
+        """What each robot is that has a model, by name; free hands are none of these."""
+        return {part.name: part.robot for part in self.each(RobotPart)}
 
     def thing(self, name: str) -> Thing:
         """Return the thing called ``name``.
@@ -61,6 +68,10 @@ class Scene:
     def index(self, name: str) -> int:
         """Return the position of the thing called ``name`` among ``things``."""
         return self.things.index(self.thing(name))
+
+    def each(self, type: type[Part]) -> tuple[Part, ...]:
+        """Return all parts that are of a type."""
+        return tuple(part for part in self.parts_known if isinstance(part, type))
 
     def parts(self, name: str) -> tuple[Thing, ...]:
         """Return the direct parts of a thing."""

@@ -14,7 +14,7 @@ from prolepsis.engine.simulation import simulate
 from prolepsis.engine.world import compile_world
 from prolepsis.geometry.shape import Geom, Shape
 from prolepsis.log.log import Log
-from prolepsis.log.things import Thing
+from prolepsis.log.things import FIXED, WITHIN, Thing
 from prolepsis.programs import read_program
 from prolepsis.scene.scene import Pool
 from prolepsis.terms.errors import InvalidSimulationError
@@ -59,11 +59,12 @@ def sinking(density: float, viscosity: float, height: float, spacing: float, dur
         kind="Honey",
         roles=frozenset({"Stuff", "Liquid"}),
         mass=volume * DENSITY,
+        mount=WITHIN,
         quantities={"density": DENSITY, "viscosity": viscosity, "surfaceTension": 0.05, "volume": volume},
     )
     made = replace(
         plain,
-        things=(plain.thing("floor"), ball, Thing(name="jar1", kind="Jar", shape=glass, fixed=True), honey),
+        things=(plain.thing("floor"), ball, Thing(name="jar1", kind="Jar", shape=glass, mount=FIXED), honey),
         pools=(Pool(stuff="liq1", position=places, spacing=spacing),),
     )
     return simulate(compile_world(made), read_program(parse_term(f"wait({duration})"), made), duration=duration)

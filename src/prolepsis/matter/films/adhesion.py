@@ -14,7 +14,8 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.geometry.solids import matrix
-from prolepsis.matter.phenomenon import Detachment, Phenomenon
+from prolepsis.log.happenings import Happening
+from prolepsis.scene.kind import Controller
 from prolepsis.scene.running import PointJoint, Running
 
 JOLT = 0.005
@@ -56,7 +57,7 @@ class Hold:
         return self.strength * math.exp(-(time - self.since) / self.lasting)
 
 
-class Adhesion(Phenomenon):
+class Adhesion(Controller):
     """The controller of what sticks together, whatever makes it stick."""
 
     def __init__(self) -> None:
@@ -64,7 +65,6 @@ class Adhesion(Phenomenon):
         self.holds: list[Hold] = []
         self._joined: list[Hold] = []
         self._numbers: list[int] = []
-        self._version = -1
 
     def stick(self, state: Running, holds: Sequence[Hold]) -> None:
         """Let things stick together where they are now."""
@@ -72,20 +72,15 @@ class Adhesion(Phenomenon):
             self.holds += holds
             self._join(state)
 
-    def bind(self, state: Running) -> None:
-        """Make the joints anew: with a body that has fallen apart its joints are gone."""
-        if self.holds and self._version != state.version:
+    def rejoin(self, state: Running) -> None:
+        """Make its joints anew."""
+        if self.holds:
             self._join(state)
 
-    def act(self, state: Running) -> list[Detachment]:
+    def act(self, state: Running) -> Sequence[Happening]:
         """Take apart what is pulled too hard; nothing breaks by that."""
-        if not self.holds:
-            return []
-        if self._version != state.version:
-            self.bind(state)
-            return []
-        if not self._joined:
-            return []
+        if not self.holds or not self._joined:
+            return ()
         time = float(state.data.time)
         share = min(1.0, float(state.model.opt.timestep) / JOLT)
         forces = state.joint_forces()
@@ -112,7 +107,7 @@ class Adhesion(Phenomenon):
                 state.data.eq_active[joint] = 0
                 self.holds = [kept for kept in self.holds if kept is not hold]
         self._report(state)
-        return []
+        return ()
 
     def _pressed(self, state: Running, hold: Hold) -> float:
         """Return the force with which contact presses the two bodies together [N]."""
@@ -139,7 +134,6 @@ class Adhesion(Phenomenon):
         self._numbers = state.join(joints)
         for number, hold in zip(self._numbers, self._joined, strict=True):
             state.data.eq_active[number] = not hold.loose
-        self._version = state.version
         self._report(state)
 
     def _report(self, state: Running) -> None:

@@ -18,7 +18,7 @@ def solids_of(state: Running) -> list[int]:
         for i, thing in enumerate(things)
         if thing.shape.geoms
         and (carrier := int(state.carrier[i])) >= 0
-        and (carrier == i or not state.is_body(things[carrier]))
+        and (carrier == i or not things[carrier].is_body)
     ]
 
 

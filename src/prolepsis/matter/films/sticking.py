@@ -11,14 +11,15 @@ Source:
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.geometry.solids import matrix
-from prolepsis.log.things import Thing
+from prolepsis.log.happenings import Happening
 from prolepsis.matter.films.adhesion import Adhesion, Hold
-from prolepsis.matter.phenomenon import Detachment, Draw
+from prolepsis.scene.parts import Kernel, Shard
 from prolepsis.scene.running import Running
 
 LOOK_TICKS = 20
@@ -31,15 +32,6 @@ BELOW = 0.5
 """What lies under a piece, its normal within 60 degrees of up, carries it: nothing need stick [1]."""
 
 
-def attach(state: Running, draw: Draw) -> list[Sticking]:
-    """Return the one controller of a scene in which a shell may stick to something."""
-    del draw
-    things = state.scene.things
-    pieces = any("Piece" in thing.roles and "area" in thing.quantities for thing in things)
-    inside = state.particles is not None or any("adhesionStrength" in thing.quantities for thing in things)
-    return [Sticking(state)] if pieces and inside else []
-
-
 class Sticking(Adhesion):
     """The controller of all pieces of shells."""
 
@@ -48,19 +40,19 @@ class Sticking(Adhesion):
         super().__init__()
         self._things = state.scene.things
         self._index = {thing.name: i for i, thing in enumerate(self._things)}
-        self._pieces = {i for i, thing in enumerate(self._things) if "area" in thing.quantities}
-        self._kernels = [i for i, thing in enumerate(self._things) if "adhesionStrength" in thing.quantities]
+        self._shards = {self._index[shard.name]: shard for shard in state.scene.each(Shard)}
+        self._kernels = {self._index[kernel.name]: kernel for kernel in state.scene.each(Kernel) if kernel.adhesion}
         self._candidates: dict[tuple[int, int], tuple[FloatArray, FloatArray]] = {}
         self._ticks = 0
         self._due = False
 
-    def tick(self, state: Running) -> None:
+    def end_tick(self, state: Running) -> None:
         """Let it be looked at what has come to stick together."""
         del state
         self._ticks += 1
         self._due = True
 
-    def act(self, state: Running) -> list[Detachment]:
+    def act(self, state: Running) -> Sequence[Happening]:
         """Find what has come to stick together, and take apart what is pulled too hard."""
         if self._due:
             self._due = False
@@ -68,24 +60,19 @@ class Sticking(Adhesion):
             if self._ticks % LOOK_TICKS == 0 and state.particles is not None and state.particles.free.any():
                 new += self._wetted(state)
             if new:
-                return self._stuck(state, new)
+                self.stick(state, new)
+                return ()
         return super().act(state)
-
-    def _stuck(self, state: Running, new: list[Hold]) -> list[Detachment]:
-        self.stick(state, new)
-        return []
 
     def _opened(self, state: Running) -> list[Hold]:
         """Return what holds the pieces of shells that have just opened to their kernels."""
         found: list[Hold] = []
         for kernel in [k for k in self._kernels if state.carrier[k] == k]:
-            self._kernels.remove(kernel)
-            thing = self._things[kernel]
-            strength = thing.quantities["adhesionStrength"]
-            for piece in sorted(self._pieces):
-                part = self._things[piece]
-                if self._whole(part) != thing.whole:
+            known, thing = self._kernels.pop(kernel), self._things[kernel]
+            for piece, shard in sorted(self._shards.items()):
+                if shard.whole != known.whole:
                     continue
+                part = self._things[piece]
                 # The pieces are where they were in the whole, so their places say which way is out.
                 out = (np.array(part.position) - np.array(thing.position)) @ matrix(np.array(thing.orientation))
                 out = out / np.asarray(thing.shape.geoms[0].size) ** 2
@@ -95,15 +82,10 @@ class Sticking(Adhesion):
                         held=piece,
                         place=np.zeros(3),
                         normal=out / np.linalg.norm(out),
-                        strength=strength * part.quantities["area"],
+                        strength=known.adhesion * shard.area,
                     )
                 )
         return found
-
-    def _whole(self, thing: Thing) -> str | None:
-        while thing.whole is not None and self._things[self._index[thing.whole]].whole is not None:
-            thing = self._things[self._index[thing.whole]]
-        return thing.whole
 
     def _wetted(self, state: Running) -> list[Hold]:
         """Return what holds wet pieces to what they have touched at two looks."""
@@ -131,7 +113,7 @@ class Sticking(Adhesion):
             first, second = (self._index.get(state.model.geom(g).name.rpartition("/")[0], -1) for g in (a, b))
             for piece, other, sign in ((second, first, 1.0), (first, second, -1.0)):
                 out = sign * contact.frame[row, :3]
-                if piece not in self._pieces or other < 0 or other in self._pieces or float(out @ up) > BELOW:
+                if piece not in self._shards or other < 0 or other in self._shards or float(out @ up) > BELOW:
                     continue
                 speeds = [state.velocity(self._things[i].name) for i in (piece, other)]
                 if float(np.linalg.norm(speeds[0] - speeds[1])) < SLOW:
@@ -146,12 +128,12 @@ class Sticking(Adhesion):
         liquid = self._things[int(particles.stuff[nearest])].quantities
         if not {"surfaceTension", "contactAngle", "filmThickness"} <= liquid.keys():
             return []
-        q = self._things[piece].quantities
-        length = math.sqrt(q["area"])
+        shard = self._shards[piece]
+        length = math.sqrt(shard.area)
         gravity = float(np.linalg.norm(state.scene.gravity))
         thin = liquid["density"] * max(gravity, 1e-9) * liquid["filmThickness"] ** 2
         pose, base = state.pose(self._things[piece].name), state.pose(self._things[holder].name)
-        strength = 4 * math.pi * liquid["surfaceTension"] * q["radius"] * math.cos(liquid["contactAngle"])
+        strength = 4 * math.pi * liquid["surfaceTension"] * shard.radius * math.cos(liquid["contactAngle"])
         if strength <= 0:
             return []
         hold = Hold(

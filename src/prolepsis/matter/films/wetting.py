@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from prolepsis.log.things import friction_of
 from prolepsis.matter.films.nearby import solids_of, touched
-from prolepsis.matter.phenomenon import Draw, Phenomenon
+from prolepsis.scene.kind import Controller
 from prolepsis.scene.running import Running
 
 LOOK_TICKS = 50
@@ -13,7 +13,7 @@ TOUCH_REACH = 0.75
 """Distance of a particle's centre from a surface that it wets [spacings]; at rest on it, it is a half."""
 
 
-class Wetting(Phenomenon):
+class Wetting(Controller):
     """The controller of all surfaces in a scene."""
 
     def __init__(self, state: Running) -> None:
@@ -23,7 +23,7 @@ class Wetting(Phenomenon):
         self._wet: set[int] = set()
         self._ticks = 0
 
-    def tick(self, state: Running) -> None:
+    def end_tick(self, state: Running) -> None:
         """Wet what touches a liquid."""
         self._ticks += 1
         particles = state.particles
@@ -50,9 +50,3 @@ class Wetting(Phenomenon):
         slippery = surface.quantities.get("frictionWhenWet", friction_of(surface))
         if slippery < friction_of(surface):
             state.set_friction(index, slippery)
-
-
-def attach(state: Running, draw: Draw) -> list[Wetting]:
-    """Return the one controller of a scene in which there is a liquid."""
-    del draw
-    return [Wetting(state)] if state.particles is not None else []

@@ -8,6 +8,7 @@ from prolepsis.geometry.faces import Solids
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.geometry.signed_distance import shifted, solids_as_arrays, union_of
 from prolepsis.matter.liquids.walls import Bodies
+from prolepsis.scene.parts import Panel
 from prolepsis.scene.running import Running
 from prolepsis.system.mujoco import mujoco
 
@@ -26,30 +27,26 @@ class WallBodies:
         Pieces of something broken that weigh less than ``lightest`` [kg] are left out.
         """
         self._lightest = lightest
-        self._version = -1
         self._last = np.zeros((0, 6))
         self.solids: Solids
         """The walls of all bodies."""
         self.ids: IntArray
         """Their MuJoCo bodies, shape (B,)."""
-        self.refresh(state)
+        self.take(state)
 
-    def refresh(self, state: Running) -> bool:
-        """Look the bodies up in a model that is new, and return whether it was."""
-        if self._version == state.version:
-            return False
-        self._version = state.version
+    def take(self, state: Running) -> None:
+        """Look the bodies up in a model that is new."""
         things = state.scene.things
+        # A wall that gives way holds liquid by the whole's own shape.
+        panels = {panel.name for panel in state.scene.each(Panel)}
         ids: list[int] = []
         first = [0]
         parts: list[Solids] = []
         for body, carrier in enumerate([int(thing) for thing in state.body_thing]):
-            # A wall that gives way holds liquid by the whole's own shape.
-            panel = carrier >= 0 and "Panel" in things[carrier].roles
-            if carrier < 0 or panel or self._is_shard(state, body, int(carrier)):
+            if carrier < 0 or things[carrier].name in panels or self._is_shard(state, body, int(carrier)):
                 continue
             # The own shape of an intact whole stands for its pieces.
-            whole = state.is_body(things[carrier])
+            whole = things[carrier].is_body
             among: list[int] = [int(carrier)] if whole else np.flatnonzero(state.carrier == carrier).tolist()
             carried = [i for i in among if things[i].shape.geoms]
             made = [shifted(solids_as_arrays(things[i].shape), state.offsets[i]) for i in carried]
@@ -64,7 +61,6 @@ class WallBodies:
         self._position, self._rotation = self._poses(state)
         self._last = np.zeros((0, 6))
         self._weigh(state)
-        return True
 
     def _weigh(self, state: Running) -> None:
         """Note where the bodies' masses are, and how those that are free and in no hand's grip yield."""
@@ -83,8 +79,7 @@ class WallBodies:
             self._inertia[k, 1:] = ((turn * inertia) @ turn.T).ravel()
 
     def _is_shard(self, state: Running, body: int, carrier: int) -> bool:
-        pieces = "Piece" in state.scene.things[carrier].roles
-        return pieces and float(state.model.body_mass[body]) < self._lightest
+        return state.scene.things[carrier].emerges and float(state.model.body_mass[body]) < self._lightest
 
     def _poses(self, state: Running) -> tuple[FloatArray, FloatArray]:
         # After a step these are a step old.

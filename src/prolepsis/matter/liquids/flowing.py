@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 
@@ -13,7 +12,7 @@ from prolepsis.matter.liquids.bodies import WallBodies
 from prolepsis.matter.liquids.particles import first_beyond
 from prolepsis.matter.liquids.solver import LONGEST, Liquid
 from prolepsis.matter.liquids.yielding import about
-from prolepsis.matter.phenomenon import Draw, Phenomenon
+from prolepsis.scene.kind import Controller
 from prolepsis.scene.particles import ParticleState
 from prolepsis.scene.running import MAX_STEP, Running
 from prolepsis.terms.errors import InvalidSimulationError
@@ -33,13 +32,7 @@ SETTLING_VISCOSITY = 2.0
 """Least viscosity with which it does so, so that it is at rest [Pa s]."""
 
 
-def attach(state: Running, draw: Draw) -> Sequence[Phenomenon]:
-    """Return the controller of the liquids of a scene, if it has any."""
-    del draw
-    return [Flowing(state)] if state.scene.pools else []
-
-
-class Flowing(Phenomenon):
+class Flowing(Controller):
     """All liquids of a running simulation."""
 
     def __init__(self, state: Running) -> None:
@@ -55,6 +48,7 @@ class Flowing(Phenomenon):
         self._elapsed = 0
         self._ticks = 1
         self._resting = False
+        self._renewed = self._bound = False
         self._settle()
 
     def _settle(self) -> None:
@@ -70,7 +64,12 @@ class Flowing(Phenomenon):
         particles.viscosity = viscosity
         particles.velocity[:] = 0.0
 
-    def tick(self, state: Running) -> None:
+    def bind(self, state: Running) -> None:
+        """Look up what it needs in a model that is new."""
+        # Those of the first model are known; others are taken where a step of the liquid ends.
+        self._renewed, self._bound = self._bound, True
+
+    def end_tick(self, state: Running) -> None:
         """Move the liquid on, if a step of it has passed."""
         particles = self.liquid.particles
         if not particles.free.any():
@@ -78,13 +77,13 @@ class Flowing(Phenomenon):
             return
         if self._resting:
             # Where the bodies are now, the first step begins.
-            self._walls.refresh(state)
+            self._take_walls(state)
             self._walls.moved(state, TICK)
             self._force = np.zeros((len(self._walls.ids), 6))
             self.liquid.forget_pushes()
             self._resting = False
         self._elapsed += 1
-        if self._walls.refresh(state):
+        if self._take_walls(state):
             self.liquid.forget_pushes()
             self._force = np.zeros((len(self._walls.ids), 6))
         elif self._elapsed < self._ticks and self._walls.way(state) < LONGEST_WAY * particles.spacing:
@@ -95,6 +94,13 @@ class Flowing(Phenomenon):
         self._ticks = max(1, int(self.liquid.next_step() / TICK + 1e-9))
         self._push(state)
         self._park(state)
+
+    def _take_walls(self, state: Running) -> bool:
+        """Look the walls up in a model that is new, and return whether it was."""
+        renewed, self._renewed = self._renewed, False
+        if renewed:
+            self._walls.take(state)
+        return renewed
 
     def _rest(self, state: Running) -> None:
         """Do nothing while nothing flows; the first time, let go of the bodies."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from prolepsis.geometry.shape import Shape
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
-from prolepsis.log.things import Thing
+from prolepsis.log.things import WITHIN, Thing
 from prolepsis.terms.errors import KnowledgeError
 
 RELATIONS = ("contains", "on", "absorbs")
@@ -46,6 +46,7 @@ def liquid_thing(kb: KnowledgeBase, name: str, roles: frozenset[str]) -> Thing:
         name=name,
         kind=kind,
         shape=Shape(colour=COLOURS.get(kind, COLOURS["Water"])),
+        mount=WITHIN,
         roles=roles,
         quantities=quantities,
     )
@@ -73,17 +74,6 @@ def place_of(kb: KnowledgeBase, name: str) -> Place:
     if place.relation == "absorbs":
         _refuse_dry(kb, place.host, name)
     return place
-
-
-def refuse_idle(kb: KnowledgeBase, name: str) -> None:
-    """Refuse a sponge that is told to be soaked without being told with what.
-
-    Raises:
-        KnowledgeError: If it is.
-    """
-    soaked = kb.number(name, "saturation")
-    if soaked and not kb.objects_of("absorbs", name):
-        raise KnowledgeError(f"{name} has the saturation {soaked:g}, but of what? State the liquid that it :absorbs")
 
 
 def _refuse_dry(kb: KnowledgeBase, sponge: str, liquid: str) -> None:

@@ -14,13 +14,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from prolepsis.geometry.shape import FloatArray
-from prolepsis.log.things import Thing
-from prolepsis.matter.phenomenon import Detachment, Draw, Phenomenon
+from prolepsis.log.happenings import Happening, detachment
 from prolepsis.matter.shells.bond_graph import BondGraph
 from prolepsis.matter.shells.cascade import Cascade, Cracking, Pressing, cascade
 from prolepsis.matter.shells.shell_calibration import calibrated_graph
 from prolepsis.matter.shells.shell_contact import ShellContact
 from prolepsis.matter.shells.shell_dents import ShellDents
+from prolepsis.matter.shells.shelled import Shell
+from prolepsis.scene.kind import Controller
 from prolepsis.scene.running import MAX_STEP, Running
 
 CONTACT_STEP = 2.5e-4
@@ -84,28 +85,20 @@ class Fragment:
         return SLIDING * self.load + float(np.abs(rows - self.rows).sum()) / self.calm < 1
 
 
-class Breaking(Phenomenon):
+class Breaking(Controller):
     """The controller of one fragile thing."""
 
-    def __init__(self, state: Running, thing: Thing, shell: Thing, breaking_force: float) -> None:
-        """Attach to ``thing``.
-
-        Args:
-            state: The simulation.
-            thing: An intact thing with an ellipsoidal shell.
-            shell: The shell, a part of it.
-            breaking_force: Force between plates at which this very shell breaks [N].
-        """
-        things = state.scene.things
-        names = {t.name: i for i, t in enumerate(things)}
-        self.thing = thing
+    def __init__(self, state: Running, shell: Shell) -> None:
+        """Look after the whole that has a ``shell``."""
+        names = {thing.name: i for i, thing in enumerate(state.scene.things)}
+        self.thing = thing = state.scene.thing(shell.whole)
         self.shell_name = shell.name
         self.index = names[thing.name]
-        self._geom, self._number, self._numbered = f"{thing.name}/0", -1, -1
-        self.pieces = [names[part.name] for part in state.scene.parts(shell.name)]
-        self.kernels = [names[part.name] for part in state.scene.parts(thing.name) if "Piece" in part.roles]
+        self.pieces = [names[shard] for shard in shell.shards]
+        self.kernels = [names[kernel] for kernel in shell.kernels]
         a, b, c = thing.shape.geoms[0].size
-        quantities = shell.quantities
+        quantities = state.scene.thing(shell.name).quantities
+        breaking_force = quantities["breakingForce"]
         self._cracking = Cracking(
             weakening=quantities["crackTipWeakening"],
             bears=quantities["crackedForceShare"] * breaking_force,
@@ -137,27 +130,36 @@ class Breaking(Phenomenon):
         self._calm = False
         self._active = -1
         self._last: tuple[int, dict[int, float]] = (-1, {})
-        self._version = -1
         self._watched: dict[int, Fragment] = {}
+        self._number, self._is_near = -1, False
         self._contact = ShellContact(state, thing, quantities["plateStiffness"], quantities["poleStiffnessRatio"])
         self._dents = ShellDents(thing, self._cracking.bears, quantities.get("shellMembraneStretch", 0.0))
         self._contact.update(state, None)
         stiffest = 2 * quantities["plateStiffness"] * math.sqrt(quantities["poleStiffnessRatio"])
         self._contact_step = min(CONTACT_STEP, CONTACT_PHASE * math.sqrt(thing.mass / stiffest))
 
-    def substep(self, state: Running) -> float:
-        """Return the substep that breaking needs now [s], and bring the contact's stiffness up to date."""
+    def bind(self, state: Running) -> None:
+        """Look up what it needs in a model that is new."""
+        bodies = {fragment.body: fragment for fragment in self.fragments if len(fragment.graph.bonds)}
+        self._watched = {state.model.body(name).id: fragment for name, fragment in bodies.items()}
+        if self.intact:
+            self._number = int(state.model.geom(f"{self.thing.name}/0").id)
+            self._dents.bind(state)
+
+    def begin_tick(self, state: Running) -> None:
+        """Begin to look for the greatest load and force, and bring the contact's stiffness up to date."""
         self._calm = self._steady and self.load < STEADY_LOAD
         self.force, self.load = 0.0, 0.0
         self._ticks += 1
         self._fresh = self._ticks % LOOK_TICKS == 0
-        if not self.intact:
-            return MAX_STEP
-        near = self._near(state)
-        if self._fresh or not self._calm:
-            pressed = near and 0 <= self._pressed_most < state.data.ncon
+        self._is_near = self.intact and self._near(state)
+        if self.intact and (self._fresh or not self._calm):
+            pressed = self._is_near and 0 <= self._pressed_most < state.data.ncon
             self._contact.update(state, state.data.contact.pos[self._pressed_most] if pressed else None)
-        if not near:
+
+    def longest_step(self, state: Running) -> float:
+        """Return the longest substep that it can do with in the coming tick [s]."""
+        if not self._is_near:
             return MAX_STEP
         longer = STEADY_STEP / math.sqrt(self._touches) if self._calm and self._touches else 1.0
         return self._contact_step * max(longer, 1.0)
@@ -169,19 +171,15 @@ class Breaking(Phenomenon):
         """
         return self._calm
 
-    def act(self, state: Running) -> list[Detachment]:
+    def act(self, state: Running) -> Sequence[Happening]:
         """Break what the contact forces of the last substep overload, and return the detached bonds."""
         if not state.data.ncon:
             self._steady = False
             return []
-        if self._version != state.version:
-            self._version = state.version
-            bodies = {f.body: f for f in self.fragments if len(f.graph.bonds)}
-            self._watched = {state.model.body(name).id: fragment for name, fragment in bodies.items()}
         totals = self._contact_totals(state)
         self._compare(state, totals)
         self.force = max(self.force, *totals.values(), 0.0)
-        detached: list[Detachment] = []
+        detached: list[Happening] = []
         for body, total in totals.items():
             fragment = self._watched[body]
             if total >= fragment.calm and (self.intact or self._fresh or total > GROWN * fragment.total):
@@ -199,6 +197,11 @@ class Breaking(Phenomenon):
             state.set_attribute(self.shell_name, "broken", 1.0)
             self._fall_apart(state)
         return detached
+
+    def end_tick(self, state: Running) -> None:
+        """Tell load and force."""
+        state.set_attribute(self.thing.name, "load", self.load)
+        state.set_attribute(self.thing.name, "force", self.force)
 
     def _compare(self, state: Running, totals: dict[int, float]) -> None:
         """Find out whether the contacts are as they were when last looked at."""
@@ -235,7 +238,7 @@ class Breaking(Phenomenon):
                         self._pressed_most, greatest = contact, force
         return totals
 
-    def _check(self, state: Running, body: int, fragment: Fragment) -> list[Detachment]:
+    def _check(self, state: Running, body: int, fragment: Fragment) -> list[Happening]:
         """Return what breaks of a fragment that is pressed hard enough to look at its bonds."""
         if not len(fragment.graph.response):
             fragment.graph = fragment.graph.assembled()
@@ -272,7 +275,7 @@ class Breaking(Phenomenon):
         self.load = max(self.load, made.worst)
         return made
 
-    def _punch(self, state: Running, points: Sequence[FloatArray]) -> list[Detachment]:
+    def _punch(self, state: Running, points: Sequence[FloatArray]) -> list[Happening]:
         """Let the pieces at points [m] come loose: they are pressed in farther than the membrane stretches.
 
         What pressed on them now presses on the rest.
@@ -306,8 +309,8 @@ class Breaking(Phenomenon):
             normal=contacts.normal_force[chosen],
         )
 
-    def _detached(self, broken: Sequence[tuple[int, int]], force: float) -> list[Detachment]:
-        return [Detachment(thing=self.index, a=self.pieces[a], b=self.pieces[b], force=force) for a, b in broken]
+    def _detached(self, broken: Sequence[tuple[int, int]], force: float) -> list[Happening]:
+        return [detachment(self.index, self.pieces[a], self.pieces[b], force) for a, b in broken]
 
     def _fall_apart(self, state: Running) -> None:
         """Give the parts of a graph that is no longer connected bodies of their own."""
@@ -330,11 +333,7 @@ class Breaking(Phenomenon):
 
     def _near(self, state: Running) -> bool:
         """Return whether anything is near the intact thing."""
-        if not state.data.ncon:
-            return False
-        if self._numbered != state.version:
-            self._numbered, self._number = state.version, int(state.model.geom(self._geom).id)
-        return any(self._number in pair for pair in state.touching())
+        return bool(state.data.ncon) and any(self._number in pair for pair in state.touching())
 
 
 def _calm(graph: BondGraph) -> float:
@@ -351,15 +350,6 @@ def _calm(graph: BondGraph) -> float:
     return float(BETWEEN_SAMPLES / graph.ratios(np.linalg.norm(components, axis=3).transpose(2, 0, 1)).max())
 
 
-def attach(state: Running, draw: Draw) -> list[Breaking]:
-    """Return a controller for each breakable thing whose shell is known."""
-    made: list[Breaking] = []
-    for thing in state.scene.things:
-        if "Breakable" not in thing.roles or thing.whole is not None:
-            continue
-        for part in state.scene.parts(thing.name):
-            known = part.quantities
-            if "breakingForce" in known and "shellThickness" in known:
-                force = draw.value(known["breakingForce"], known.get("breakingForceDeviation", 0.0))
-                made.append(Breaking(state, thing, part, force))
-    return made
+def start(state: Running) -> list[Breaking]:
+    """Return a controller for each shell."""
+    return [Breaking(state, shell) for shell in state.scene.each(Shell)]

@@ -1,12 +1,13 @@
-"""The things that an egg consists of: shell, what is inside, and the pieces that the shell falls into."""
+"""The shards that a shell may fall into, as things, and the room that they leave inside."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, Geom, Shape, Triple
-from prolepsis.log.things import Thing
+from prolepsis.log.things import WITHIN, Thing
 from prolepsis.robots.hand import rotate
+from prolepsis.scene.parts import Shard
 from prolepsis.scene.shapes.egg import Shell, curvature_radius, ellipsoid_shell
 
 CLEARANCE = 0.99
@@ -30,10 +31,11 @@ def room_within(egg: Thing, shell: Thing) -> float:
     return CLEARANCE * room
 
 
-def shell_pieces(egg: Thing, shell: Thing) -> tuple[Thing, ...]:
-    """Return the pieces of an egg's shell, with their share of its mass."""
+def shell_pieces(egg: Thing, shell: Thing) -> tuple[tuple[Thing, ...], tuple[Shard, ...]]:
+    """Return the pieces of an egg's shell as things, with their share of its mass, and what they are."""
     parts = shell_of(egg, shell)
     made: list[Thing] = []
+    shards: list[Shard] = []
     for k, (centre, outline, area) in enumerate(zip(parts.centres, parts.outlines, parts.areas, strict=True)):
         vertices = tuple((float(x), float(y), float(z)) for x, y, z in outline)
         made.append(
@@ -45,22 +47,16 @@ def shell_pieces(egg: Thing, shell: Thing) -> tuple[Thing, ...]:
                 orientation=egg.orientation,
                 mass=float(shell.mass * area / parts.areas.sum()),
                 whole=shell.name,
+                mount=WITHIN,
                 roles=frozenset({"Piece"}),
-                quantities={
-                    "friction": shell.quantities["friction"],
-                    "area": float(area),
-                    "radius": curvature_radius(np.asarray(egg.shape.geoms[0].size), centre),
-                },
+                quantities={"friction": shell.quantities["friction"]},
             )
         )
-    return tuple(made)
+        radius = curvature_radius(np.asarray(egg.shape.geoms[0].size), centre)
+        shards.append(Shard(name=made[-1].name, whole=egg.name, area=float(area), radius=radius))
+    return tuple(made), tuple(shards)
 
 
 def _placed(egg: Thing, offset: FloatArray) -> Triple:
     x, y, z = np.asarray(egg.position) + rotate(egg.orientation, (offset[0], offset[1], offset[2]))
     return (float(x), float(y), float(z))
-
-
-def egg_things(egg: Thing, shell: Thing, inside: tuple[Thing, ...]) -> tuple[Thing, ...]:
-    """Return an egg with its parts and the pieces of its shell, in that order."""
-    return (egg, shell, *inside, *shell_pieces(egg, shell))

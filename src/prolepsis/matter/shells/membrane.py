@@ -15,34 +15,29 @@ from collections.abc import Sequence
 import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, IntArray
+from prolepsis.log.happenings import Happening, detachment
 from prolepsis.log.log import FREE
-from prolepsis.log.things import Thing
-from prolepsis.matter.phenomenon import Detachment, Draw, Phenomenon
+from prolepsis.matter.shells.shelled import Membraned
+from prolepsis.scene.kind import Controller
 from prolepsis.scene.running import MAX_STEP, Running
 
 WOBBLE = 40.0
 """Angular frequency with which a yolk quivers [rad/s]: under its weight it sinks by g / w^2, a fifth of its height."""
 
 
-def attach(state: Running, draw: Draw) -> Sequence[Phenomenon]:
+def start(state: Running) -> list[Membrane]:
     """Return a controller for each stuff that has a membrane."""
-    if state.particles is None:
-        return []
-    return [
-        Membrane(state, thing, draw.value(thing.quantities["membraneForce"], 0.0))
-        for thing in state.scene.things
-        if {"membraneForce", "probeRadius"} <= thing.quantities.keys()
-    ]
+    return [Membrane(state, each) for each in state.scene.each(Membraned)] if state.particles is not None else []
 
 
-class Membrane(Phenomenon):
+class Membrane(Controller):
     """The controller of one yolk."""
 
-    def __init__(self, state: Running, thing: Thing, force: float) -> None:
-        """Attach to a stuff whose membrane a probe punctures with a force [N]."""
+    def __init__(self, state: Running, stuff: Membraned) -> None:
+        """Look after the particles of a stuff."""
         assert state.particles is not None
-        self._thing = thing
-        self._index = state.scene.index(thing.name)
+        self._name = stuff.name
+        self._index = state.scene.index(stuff.name)
         own = np.flatnonzero(state.particles.stuff == self._index)
         self._first, last = int(own[0]), int(own[-1])
         # As a slice they are reached ten times faster.
@@ -50,20 +45,20 @@ class Membrane(Phenomenon):
         places = state.particles.position[self._own]
         self._rest = places - places.mean(axis=0)
         self._places, self._push = np.zeros_like(places), np.zeros_like(places)
-        self.strength = force / (2 * math.pi * thing.quantities["probeRadius"])
+        self.strength = stuff.force / (2 * math.pi * stuff.probe_radius)
         """Tension at which it tears: the probe's force over its rim [N/m]."""
         self.tension = 0.0
         """Tension round the yolk [N/m]."""
         self.broken = False
-        self._news: list[Detachment] = []
+        self._news: list[Happening] = []
 
-    def act(self, state: Running) -> list[Detachment]:
+    def act(self, state: Running) -> Sequence[Happening]:
         """Return that it has torn, once."""
         del state
         news, self._news = self._news, []
         return news
 
-    def tick(self, state: Running) -> None:
+    def end_tick(self, state: Running) -> None:
         """Hold the yolk together, or tear."""
         particles = state.particles
         if self.broken or particles is None or particles.holder[self._first] != FREE:
@@ -82,8 +77,8 @@ class Membrane(Phenomenon):
         self.tension = force / (2 * math.pi * (3 * volume / (4 * math.pi)) ** (1 / 3))
         if self.tension > self.strength:
             self.broken = True
-            state.set_attribute(self._thing.name, "broken", 1.0)
-            self._news.append(Detachment(thing=self._index, a=self._index, b=self._index, force=force))
+            state.set_attribute(self._name, "broken", 1.0)
+            self._news.append(detachment(self._index, self._index, self._index, force))
             return
         self._places, self._push = places, MAX_STEP * pull
         particles.velocity[self._own] += self._push

@@ -2,30 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from prolepsis.geometry.solids import matrix
 from prolepsis.log.log import FREE
 from prolepsis.log.things import Thing
-from prolepsis.matter.phenomenon import Draw, Phenomenon
+from prolepsis.matter.shells.shelled import Shell
+from prolepsis.scene.kind import Controller
 from prolepsis.scene.particles import PERIOD
 from prolepsis.scene.running import Running
 
 
-def attach(state: Running, draw: Draw) -> Sequence[Phenomenon]:
-    """Return a controller for each thing that encloses particles and may break."""
-    del draw
-    particles = state.particles
-    if particles is None:
+def start(state: Running) -> list[Opening]:
+    """Return a controller for each shell that encloses particles."""
+    if state.particles is None:
         return []
-    things = state.scene.things
-    holders = set(particles.holder.tolist())
-    return [Opening(state, thing) for i, thing in enumerate(things) if i in holders and "Breakable" in thing.roles]
+    holders = set(state.particles.holder.tolist())
+    wholes = [state.scene.thing(shell.whole) for shell in state.scene.each(Shell)]
+    return [Opening(state, whole) for whole in wholes if state.scene.index(whole.name) in holders]
 
 
-class Opening(Phenomenon):
+class Opening(Controller):
     """The controller of what is inside one breakable thing."""
 
     def __init__(self, state: Running, thing: Thing) -> None:
@@ -37,22 +34,23 @@ class Opening(Phenomenon):
         body = state.data.body(thing.name)
         turn = body.xmat.reshape(3, 3)
         self._places = (state.particles.position[self._inside] - body.xpos) @ turn
-        self._version = -1
         self._pose, self._motion = state.pose(thing.name), np.zeros(6)
         self._ticks = 0
 
-    def tick(self, state: Running) -> None:
+    def bind(self, state: Running) -> None:
+        """Look up what it needs in a model that is new."""
+        if state.carrier[self._index] >= 0:
+            joint = state.model.joint(self._name)
+            place, speed = int(joint.qposadr[0]), int(joint.dofadr[0])
+            self._now = state.data.qpos[place : place + 7], state.data.qvel[speed : speed + 6]
+
+    def end_tick(self, state: Running) -> None:
         """Carry what is inside, or let it out."""
         particles = state.particles
         if particles is None or not len(self._inside):
             return
         self._ticks += 1
         if state.carrier[self._index] >= 0:
-            if self._version != state.version:
-                self._version = state.version
-                joint = state.model.joint(self._name)
-                place, speed = int(joint.qposadr[0]), int(joint.dofadr[0])
-                self._now = state.data.qpos[place : place + 7], state.data.qvel[speed : speed + 6]
             self._pose, self._motion = self._now[0].copy(), self._now[1].copy()
             if self._ticks % PERIOD == 0:
                 particles.position[self._inside] = self._pose[:3] + self._places @ matrix(self._pose[3:]).T

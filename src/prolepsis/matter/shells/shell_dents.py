@@ -51,7 +51,6 @@ class ShellDents:
         self._thing, self._geom = thing.name, f"{thing.name}/0"
         self._bears, self._deepest = bears, deepest
         self._dents: dict[str, Dent] = {}
-        self._version = -1
         self._others: dict[int, str] = {}
         self._pairs: dict[str, list[int]] = {}
 
@@ -61,7 +60,6 @@ class ShellDents:
 
     def begin(self, state: Running, contacts: IntArray, forces: FloatArray) -> None:
         """Let the shell be pressed in from now on at contacts, given by their numbers, by no more than forces [N]."""
-        self._bind(state)
         for other, force in self._totals(state, contacts, forces).items():
             dent = self._dents.setdefault(other, Dent(force=force, distance=math.inf))
             dent.force = min(dent.force, force)
@@ -71,7 +69,6 @@ class ShellDents:
 
         A dent that nothing is near any more is forgotten.
         """
-        self._bind(state)
         touching = self._touching(state)
         through: list[FloatArray] = []
         for other in self._dents.keys() - touching.keys():
@@ -98,7 +95,6 @@ class ShellDents:
         The rest is but the overshoot of a dent that grows. With ``relief`` [1] the shell has just cracked: where more
         than a cracked shell bears presses, the force falls to that part of it.
         """
-        self._bind(state)
         totals = self._totals(state, contacts, normal)
         share = {other: self._share(total, self._dents.get(other), relief) for other, total in totals.items()}
         return np.array([share[self._other(state, contact)] for contact in contacts.tolist()])
@@ -151,11 +147,8 @@ class ShellDents:
         for pair in self._pairs.get(other, ()):
             state.model.pair_margin[pair] = -depth
 
-    def _bind(self, state: Running) -> None:
+    def bind(self, state: Running) -> None:
         """Look the contacts up in a model that is new."""
-        if self._version == state.version:
-            return
-        self._version = state.version
         model, geom = state.model, int(state.model.geom(self._geom).id)
         self._others, self._pairs = {}, {}
         for number, pair in enumerate(zip(model.pair_geom1.tolist(), model.pair_geom2.tolist(), strict=True)):

@@ -1,37 +1,79 @@
-"""What has a breakable ellipsoidal shell: its parts as things - shell, stuffs, a firm kernel, pieces of the shell."""
+"""What has a breakable ellipsoidal shell: its parts - shell, stuffs, a firm kernel, the shards of the shell."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from prolepsis.geometry.shape import Geom, Shape
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
-from prolepsis.log.things import Thing
-from prolepsis.matter.shells.egg_things import egg_things, room_within
+from prolepsis.log.things import WITHIN, Thing
+from prolepsis.matter.shells.egg_things import room_within, shell_pieces
+from prolepsis.scene.kind import Individuals, Made
+from prolepsis.scene.parts import Kernel
 from prolepsis.terms.errors import KnowledgeError
 
 SLENDEREST, FLATTEST = 0.5, 2.0
 """Least and greatest breadth over length of a shell that is cut into pieces [1]."""
+NEEDED = (
+    "breakingForce",
+    "shellThickness",
+    "youngsModulus",
+    "poissonRatio",
+    "fractureStrain",
+    "plateStiffness",
+    "poleStiffnessRatio",
+    "crackTipWeakening",
+    "crackedForceShare",
+    "crackReliefShare",
+    "pieceCount",
+    "friction",
+)
+"""What must be known of a shell."""
 STUFFS = {"EggYolk": (0.98, 0.72, 0.08, 1.0), "EggWhite": (0.93, 0.93, 0.82, 0.75), "Liquid": (0.86, 0.90, 0.90, 0.6)}
 """What flows out of a shell, from the middle outwards, and its colour, for pictures only."""
 KERNELS = {"ChocolateKernel": (0.30, 0.17, 0.10, 1.0), "Kernel": (0.97, 0.96, 0.90, 1.0)}
 """Firm kernels and their colour, for pictures only."""
 
 
-def shelled_things(kb: KnowledgeBase, whole: Thing, roles: Callable[[str], frozenset[str]]) -> tuple[Thing, ...]:
-    """Return a whole with a shell and its parts, in that order.
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Shell:
+    """The shell of a whole, and what it falls apart into."""
+
+    whole: str
+    """The thing that has it."""
+    name: str
+    """The thing that it is."""
+    shards: tuple[str, ...]
+    """Its pieces."""
+    kernels: tuple[str, ...]
+    """What is firm inside and comes free."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Membraned:
+    """A stuff that a membrane holds together."""
+
+    name: str
+    """The stuff."""
+    force: float
+    """Force at which a probe punctures the membrane [N]."""
+    probe_radius: float
+    """Radius of that probe [m]."""
+
+
+def shelled(individuals: Individuals, whole: Thing) -> Made:
+    """Return a whole with a shell and its parts.
 
     Args:
-        kb: The situation.
+        individuals: The individuals of the situation.
         whole: The whole at its place, an ellipsoid.
-        roles: Roles of an individual.
 
     Raises:
         KnowledgeError: If it cannot be simulated.
     """
+    kb = individuals.kb
     shells = [part for part in kb.parts(whole.name) if kb.is_a(part, "Shell")]
     if len(shells) != 1:
         raise KnowledgeError(f"{whole.name} has {len(shells)} shells, needed: 1")
@@ -44,8 +86,11 @@ def shelled_things(kb: KnowledgeBase, whole: Thing, roles: Callable[[str], froze
         raise KnowledgeError(f"{whole.name} is {size}; allowed: a breadth of {allowed}")
     if "BrokenThing" in kb.classes(whole.name):
         raise KnowledgeError(f"{whole.name} is broken at the start; only whole ones can be simulated")
-    parts = [_part(kb, part, whole, roles(part)) for part in kb.parts(whole.name)]
+    parts = [_part(kb, part, whole, individuals.roles(part)) for part in kb.parts(whole.name)]
     shell = next(part for part in parts if part.name == shells[0])
+    for needed in NEEDED:
+        if needed not in shell.quantities:
+            raise KnowledgeError(f"{shell.name} ({shell.kind}) has no {needed}; state it")
     inside = [part for part in parts if part is not shell]
     stuffs = [
         replace(part, shape=Shape(colour=STUFFS[cls]))
@@ -59,7 +104,24 @@ def shelled_things(kb: KnowledgeBase, whole: Thing, roles: Callable[[str], froze
         raise KnowledgeError(f"{whole.name} has {names} inside; allowed: liquids, or one kernel")
     # What touches the world is the shell, so the whole is as slippery as that.
     slippery = replace(whole, quantities={**whole.quantities, "friction": shell.quantities["friction"]})
-    return egg_things(slippery, shell, (*stuffs, *kernels))
+    shards, areas = shell_pieces(slippery, shell)
+    known = Shell(
+        whole=whole.name,
+        name=shell.name,
+        shards=tuple(shard.name for shard in shards),
+        kernels=tuple(kernel.name for kernel in kernels),
+    )
+    firm = [
+        Kernel(name=kernel.name, whole=whole.name, adhesion=kernel.quantities.get("adhesionStrength", 0.0))
+        for kernel in kernels
+    ]
+    membranes = [_membrane(kb, stuff) for stuff in stuffs if kb.is_a(stuff.name, "Membraned")]
+    return Made(things=(slippery, shell, *stuffs, *kernels, *shards), parts=(known, *areas, *firm, *membranes))
+
+
+def _membrane(kb: KnowledgeBase, stuff: Thing) -> Membraned:
+    force, radius = kb.quantity(stuff.name, "membraneForce"), kb.quantity(stuff.name, "probeRadius")
+    return Membraned(name=stuff.name, force=force, probe_radius=radius)
 
 
 def _part(kb: KnowledgeBase, name: str, whole: Thing, roles: frozenset[str]) -> Thing:
@@ -74,6 +136,7 @@ def _part(kb: KnowledgeBase, name: str, whole: Thing, roles: frozenset[str]) -> 
         orientation=whole.orientation,
         mass=quantities.get("mass", 0.0),
         whole=whole.name,
+        mount=WITHIN,
         roles=roles - {"Breakable", "Container"},
         quantities={**quantities, **deviations},
     )

@@ -7,7 +7,6 @@ hanging freely, it has less room, and what it cannot keep comes out again at its
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 
@@ -15,10 +14,10 @@ from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.log import FREE
 from prolepsis.log.things import Thing
 from prolepsis.matter.films.nearby import distance_to, solids_of
-from prolepsis.matter.phenomenon import Draw, Phenomenon
-from prolepsis.matter.shells.carried_mass import CarriedMass
+from prolepsis.matter.sponges.carried_mass import CarriedMass
 from prolepsis.matter.sponges.sponge_law import SpongeLaw
 from prolepsis.matter.sponges.sponge_surface import SpongeSurface, nearest_of
+from prolepsis.scene.kind import Controller
 from prolepsis.scene.particles import ParticleState
 from prolepsis.scene.running import MAX_STEP, Running
 from prolepsis.system.mujoco import mujoco
@@ -37,16 +36,7 @@ DRIP_ROOM = 1.5
 """Where nothing else is nearer than this, a drop can fall [spacings]."""
 
 
-def attach(state: Running, draw: Draw) -> Sequence[Phenomenon]:
-    """Return a controller for each thing that can absorb, if the scene has particles."""
-    del draw
-    if state.particles is None:
-        return []
-    things = state.scene.things
-    return [Absorbing(state, t) for t in things if "absorbentCapacity" in t.quantities and not t.fixed]
-
-
-class Absorbing(Phenomenon):
+class Absorbing(Controller):
     """The controller of one sponge, after the liquid has moved."""
 
     def __init__(self, state: Running, thing: Thing) -> None:
@@ -70,14 +60,19 @@ class Absorbing(Phenomenon):
         self._due = 0.0
         self._wanted = 0.0
         self._ticks = 0
-        self._set_mass(state, particles)
         self._carry(state, particles)
 
     def held(self, particles: ParticleState) -> IntArray:
         """Return the particles that it holds, shape (n,)."""
         return np.flatnonzero(particles.holder == self.index)
 
-    def tick(self, state: Running) -> None:
+    def bind(self, state: Running) -> None:
+        """Look up what it needs in a model that is new."""
+        self._body.bind()
+        if state.particles is not None:
+            self._set_mass(state, state.particles)
+
+    def end_tick(self, state: Running) -> None:
         """Take liquid up, give it off, and carry what it holds."""
         self._ticks += 1
         if self._ticks % LOOK_TICKS or state.particles is None:

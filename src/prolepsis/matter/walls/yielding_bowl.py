@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from prolepsis.log.things import Thing
+from prolepsis.log.things import Thing, jointed
+from prolepsis.scene.kind import Made
+from prolepsis.scene.parts import Panel
+from prolepsis.scene.running import MAX_STEP
+from prolepsis.scene.scene import Scene
 from prolepsis.scene.shapes.panels import panels, resistance
 from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.errors import KnowledgeError
@@ -23,7 +27,7 @@ CONTACT_TYPE, CONTACT_AFFINITY = 4, 3
 """Panels touch everything but each other."""
 
 
-def bowl_things(bowl: Thing) -> tuple[Thing, ...]:
+def bowl_parts(bowl: Thing) -> Made:
     """Return a bowl and the panels of its wall.
 
     Raises:
@@ -34,8 +38,6 @@ def bowl_things(bowl: Thing) -> tuple[Thing, ...]:
         parts, resists = panels(bowl.shape, q), resistance(q)
     except KnowledgeError as error:
         raise KnowledgeError(f"{bowl.name} ({bowl.kind}): {error}") from None
-    known = {name: q[name] for name in ("friction", "surfaceStiffness") if name in q}
-    known |= {"lever": resists.lever, "moment": resists.moment, "stiffness": resists.stiffness}
     made = tuple(
         Thing(
             name=f"{bowl.name}/panel{k}",
@@ -45,45 +47,45 @@ def bowl_things(bowl: Thing) -> tuple[Thing, ...]:
             orientation=bowl.orientation,
             whole=bowl.name,
             roles=frozenset({PANEL}),
-            quantities=known,
+            mount=jointed(bowl.name),
+            quantities={name: q[name] for name in ("friction", "surfaceStiffness") if name in q},
         )
         for k, part in enumerate(parts)
     )
-    return (bowl, *made)
+    known = tuple(
+        Panel(
+            name=part.name,
+            whole=bowl.name,
+            lever=resists.lever,
+            moment=resists.moment,
+            stiffness=resists.stiffness,
+        )
+        for part in made
+    )
+    return Made(things=(bowl, *made), parts=known)
 
 
-def add_panels(spec: Any, bowl: Thing, parts: tuple[Thing, ...], add_geom: Callable[..., Any], step: float) -> None:
-    """Move the wall of a bowl in the spec from its own body to those of its panels.
-
-    Args:
-        spec: The world, with the bowl as one rigid body.
-        bowl: The bowl.
-        parts: Its panels.
-        add_geom: Adds a solid of a thing to a body: body, thing, number of the solid, mass [kg].
-        step: The longest substep [s].
-    """
-    q = bowl.quantities
-    base = spec.body(bowl.name)
+def hinge_panels(spec: Any, scene: Scene, bowl: Thing, parts: Sequence[Panel]) -> None:
+    """Let the panels of a bowl in the spec weigh and touch in the place of its wall, each on its hinge."""
     own = [spec.geom(f"{bowl.name}/{k}") for k in range(1, len(bowl.shape.geoms))]
     mass = sum(float(geom.mass) for geom in own)
     for geom in own:
         # It stays there as what the bowl is called by, but neither weighs nor touches anything.
         geom.mass, geom.contype, geom.conaffinity = 0.0, 0, 0
-    for part, panel in zip(parts, panels(bowl.shape, q), strict=True):
-        body = base.add_body(name=part.name)
-        share = mass / len(own)
-        for k in range(len(part.shape.geoms)):
-            made = add_geom(body, part, k, mass=share)
-            made.contype, made.conaffinity = CONTACT_TYPE, CONTACT_AFFINITY
-        stiffness, lever = part.quantities["stiffness"], part.quantities["lever"]
-        inertia = share * len(part.shape.geoms) * lever**2 / 3
-        needed = max(stiffness * (step / SMOOTHEST) ** 2, inertia)
-        body.add_joint(
+    share = mass / len(own)
+    for part, panel in zip(parts, panels(bowl.shape, bowl.quantities), strict=True):
+        count = len(scene.thing(part.name).shape.geoms)
+        for k in range(count):
+            made = spec.geom(f"{part.name}/{k}")
+            made.mass, made.contype, made.conaffinity = share, CONTACT_TYPE, CONTACT_AFFINITY
+        inertia = share * count * part.lever**2 / 3
+        needed = max(part.stiffness * (MAX_STEP / SMOOTHEST) ** 2, inertia)
+        spec.body(part.name).add_joint(
             name=part.name,
             type=mujoco.mjtJoint.mjJNT_HINGE,
             pos=list(panel.hinge),
             axis=list(panel.axis),
-            stiffness=[stiffness, 0, 0],
-            damping=[2 * DAMPING_RATIO * float(np.sqrt(stiffness * needed)), 0, 0],
+            stiffness=[part.stiffness, 0, 0],
+            damping=[2 * DAMPING_RATIO * float(np.sqrt(part.stiffness * needed)), 0, 0],
             armature=needed - inertia,
         )

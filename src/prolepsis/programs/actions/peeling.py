@@ -19,6 +19,7 @@ from prolepsis.programs.holding import holding
 from prolepsis.programs.two_hands import OTHER, Hold, Placed, check_two_arms, hold_out
 from prolepsis.robots.commands import Behaviour, HandTarget, Note, Sense, Way, no_way
 from prolepsis.scene.extent import extent_along
+from prolepsis.scene.parts import Kernel, Shard
 from prolepsis.scene.scene import Scene, reference_of
 from prolepsis.terms.errors import PlanError
 
@@ -92,9 +93,8 @@ class _Pinch:
 
 def _shelled(scene: Scene, object: Thing) -> _Shelled | None:
     """Return an object with its kernel and the pieces of its shell, if it has such."""
-    parts = scene.parts(object.name)
-    kernels = [part for part in parts if "adhesionStrength" in part.quantities]
-    pieces = tuple(p for part in parts for p in scene.parts(part.name) if "Piece" in p.roles and "area" in p.quantities)
+    kernels = [scene.thing(kernel.name) for kernel in scene.each(Kernel) if kernel.whole == object.name]
+    pieces = tuple(scene.thing(shard.name) for shard in scene.each(Shard) if shard.whole == object.name)
     return _Shelled(object=object, kernel=kernels[0], pieces=pieces) if kernels and pieces else None
 
 

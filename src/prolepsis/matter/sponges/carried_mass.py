@@ -17,13 +17,11 @@ class CarriedMass:
         """Look after the body of a given name and own mass [kg]."""
         self._name = name
         self._own = mass
-        self._version = -1
         self._now = mass
 
     def set(self, state: Running, carried: float) -> None:
         """Make the body as heavy as itself and what it carries [kg]."""
         model: Any = state.model
-        self._bind(state)
         heavier = self._own + carried
         if heavier == self._now:
             return
@@ -40,10 +38,9 @@ class CarriedMass:
         model.dof_M0[dofs] *= factor
         self._now = heavier
 
-    def _bind(self, state: Running) -> None:
-        if self._version != state.version:
-            # A model that was rebuilt knows the own mass only.
-            self._version, self._now = state.version, self._own
+    def bind(self) -> None:
+        """Begin with a model that was rebuilt: it knows the own mass only."""
+        self._now = self._own
 
     def collide(self, state: Running, places: FloatArray, velocity: FloatArray, mass: FloatArray) -> None:
         """Give the body the momentum, linear and angular, of particles that become a part of it; call before ``set``.
@@ -54,7 +51,6 @@ class CarriedMass:
             velocity: [m/s], shape (n, 3).
             mass: [kg], shape (n,).
         """
-        self._bind(state)
         model, data = state.model, state.data
         body = model.body(self._name).id
         first = model.body_dofadr[body]

@@ -7,9 +7,9 @@ from dataclasses import replace
 
 from prolepsis.geometry.shape import Quaternion, Triple, quaternion, triple
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
-from prolepsis.log.things import Thing
+from prolepsis.log.things import WITHIN, Mount, Thing, jointed
 from prolepsis.robots.hand import rotate
-from prolepsis.robots.model import robot_model
+from prolepsis.robots.model import RobotModel, robot_model
 from prolepsis.robots.pr2 import PR2
 from prolepsis.robots.turned import product
 from prolepsis.scene.robot import Robot
@@ -60,7 +60,9 @@ def robot_things(
             raise KnowledgeError(f"{whole.name} ({whole.kind}) has no part {name}; state :{name} a :Gripper")
     openings = {name: _opening(kb, name, read.gaps[name].greatest) for name in known}
     data, _ = read.at_home(openings)
-    robot_thing = replace(whole, roles=whole.roles | {"Robot"}, mass=float(read.model.body_subtreemass[0]))
+    robot_thing = replace(
+        whole, mount=WITHIN, roles=whole.roles | {"Robot"}, mass=float(read.model.body_subtreemass[0])
+    )
     made: dict[str | None, list[Thing]] = {None: [robot_thing]}
     for arm in robot.arms:
         palm = read.model.body(arm.gripper.palm).id
@@ -78,6 +80,7 @@ def robot_things(
         }
         gripper = replace(
             found,
+            mount=WITHIN,
             position=position,
             orientation=orientation,
             mass=float(read.model.body_subtreemass[palm]),
@@ -93,6 +96,7 @@ def robot_things(
             Thing(
                 name=f"{whole.name}/{name}",
                 kind="Part",
+                mount=_mount(read, body, whole.name),
                 shape=shape_of(read.model, body),
                 position=position,
                 orientation=orientation,
@@ -102,6 +106,11 @@ def robot_things(
             )
         )
     return tuple(thing for things in made.values() for thing in things)
+
+
+def _mount(read: RobotModel, body: int, robot: str) -> Mount:
+    parent = int(read.model.body_parentid[body])
+    return jointed(f"{robot}/{read.model.body(parent).name}" if parent else None)
 
 
 def _opening(kb: KnowledgeBase, name: str, greatest: float) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from itertools import combinations
 from typing import Any
 
@@ -10,6 +10,7 @@ from prolepsis.log.things import Thing
 from prolepsis.robots.grippers import COUPLING_SOLIMP, COUPLING_SOLREF
 from prolepsis.robots.model import robot_model
 from prolepsis.robots.model_file import OTHERS, OWN
+from prolepsis.scene.kind import Building
 from prolepsis.scene.robot import Arm, Joint, Robot
 from prolepsis.scene.scene import Scene
 from prolepsis.scene.shapes.from_model import touches
@@ -42,12 +43,12 @@ def add_robot(spec: Any, robot: Robot, thing: Thing, arms: Sequence[str]) -> Non
     _let_arms_touch(spec, robot, thing.name, arms)
 
 
-def rule_contacts(spec: Any, scene: Scene, robot: str, rule: Callable[[Any, Thing], None]) -> None:
-    """Give the geoms of a robot and its grippers their contact rules by ``rule(geom, thing)``."""
-    for thing in scene.things:
+def rule_contacts(building: Building, robot: str) -> None:
+    """Give the geoms of a robot and its grippers friction and softness."""
+    for thing in building.scene.things:
         if thing.name.startswith(f"{robot}/") and thing.whole is not None:
             for k in range(len(thing.shape.geoms)):
-                rule(spec.geom(f"{thing.name}/{k}"), thing)
+                building.rule_contact(building.spec.geom(f"{thing.name}/{k}"), thing, rolls=False)
 
 
 def posture(robot: Robot, name: str, scene: Scene) -> dict[str, float]:

@@ -1,0 +1,62 @@
+"""Happenings: what kinds of matter report of a run beside series, each at a tick - that a bond has detached, say."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from prolepsis.geometry.shape import FloatArray, IntArray
+
+DETACHMENT = "detachment"
+"""Type of what happens when a bond of something breakable gives way."""
+DETACHMENT_COLUMNS = ("thing", "a", "b", "force")
+"""Its arguments - the whole and two of its pieces - and its number, a force [N]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Happening:
+    """One of them, as it is reported."""
+
+    type: str
+    """``detachment``; all of one type have the same arguments and numbers."""
+    things: Mapping[str, int]
+    """Index of the thing that each argument is, by the argument's name."""
+    numbers: Mapping[str, float] = field(default_factory=dict[str, float])
+    """What was measured, by name, in SI units."""
+
+
+def detachment(thing: int, a: int, b: int, force: float) -> Happening:
+    """Return that a bond between two pieces, a and b, of a whole has detached under a force [N]."""
+    return Happening(type=DETACHMENT, things={"thing": thing, "a": a, "b": b}, numbers={"force": force})
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Happenings:
+    """All of one type, H rows in the order of time."""
+
+    tick: IntArray
+    """Tick within which each happened, shape (H,), ascending."""
+    things: Mapping[str, IntArray]
+    """Index of the thing that each argument is, each of shape (H,)."""
+    numbers: Mapping[str, FloatArray] = field(default_factory=dict[str, FloatArray])
+    """What was measured, each of shape (H,)."""
+
+    def __len__(self) -> int:
+        """Return how many there are."""
+        return len(self.tick)
+
+
+def happening_columns(rows: Sequence[tuple[int, Happening]]) -> dict[str, Happenings]:
+    """Return the happenings of a run, given with their ticks, as columns by type."""
+    found: dict[str, Happenings] = {}
+    for type in sorted({row.type for _, row in rows}):
+        chosen = [(tick, row) for tick, row in rows if row.type == type]
+        first = chosen[0][1]
+        found[type] = Happenings(
+            tick=np.array([tick for tick, _ in chosen], dtype=np.int64),
+            things={name: np.array([row.things[name] for _, row in chosen], dtype=np.int64) for name in first.things},
+            numbers={name: np.array([row.numbers[name] for _, row in chosen]) for name in first.numbers},
+        )
+    return found

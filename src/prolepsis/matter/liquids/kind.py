@@ -1,0 +1,52 @@
+"""Liquids: what flows by itself, as particles that fill containers, lie on surfaces or soak what absorbs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from prolepsis.knowledge.knowledge_base import KnowledgeBase
+from prolepsis.log.things import Thing
+from prolepsis.matter.liquids.liquids import is_liquid, liquid_thing, place_of
+from prolepsis.scene.kind import Controller, Draft, Kind
+from prolepsis.scene.running import Running
+from prolepsis.scene.scene import Pool
+
+
+class Liquids(Kind):
+    """The kind of what flows."""
+
+    order = 10
+
+    def flowing(self, kb: KnowledgeBase) -> Sequence[str]:
+        """Return the liquids that are no part of anything."""
+        return [name for name in kb.objects if is_liquid(kb, name)]
+
+    def refuse(self, kb: KnowledgeBase) -> None:
+        """Refuse what is told of it that cannot be so."""
+        for name in self.flowing(kb):
+            place_of(kb, name)
+
+    def fill(self, draft: Draft) -> tuple[Mapping[str, tuple[Thing, ...]], tuple[Pool, ...]]:
+        """Return what flows of it once all solids are at their places."""
+        names = self.flowing(draft.individuals.kb)
+        if not names:
+            return {}, ()
+        # The import takes longer than a scene without liquids.
+        from prolepsis.matter.liquids.filling import fill
+
+        liquids = [liquid_thing(draft.individuals.kb, name, draft.individuals.roles(name)) for name in names]
+        places = {name: place_of(draft.individuals.kb, name) for name in names}
+        solids = {name: tuple(thing for thing in made if thing.is_body) for name, made in draft.things.items()}
+        filled, pools = fill(liquids, places, solids, draft.particles)
+        return {each.name: (each,) for each in filled}, pools
+
+    def start(self, state: Running) -> Sequence[Controller]:
+        """Return its controllers in one run."""
+        if not state.scene.pools:
+            return ()
+        from prolepsis.matter.liquids.flowing import Flowing
+
+        return [Flowing(state)]
+
+
+KIND = Liquids()

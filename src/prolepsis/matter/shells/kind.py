@@ -1,0 +1,107 @@
+"""Shells: what has a brittle shell breaks, falls apart into shards and lets out what it has inside."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import product
+
+from prolepsis.knowledge.knowledge_base import KnowledgeBase
+from prolepsis.log.things import Thing, friction_of, own_solids
+from prolepsis.matter.shells.egg_inside import egg_pools
+from prolepsis.matter.shells.shelled import Shell, shelled
+from prolepsis.scene.kind import Building, Channel, Controller, Draft, Individuals, Kind, Made
+from prolepsis.scene.running import Running
+from prolepsis.scene.scene import Pool
+from prolepsis.terms.errors import KnowledgeError, brief_list
+
+NEAR = 0.01
+"""Contacts of breakable things are detected at this distance [m], so that the substep shrinks before the impact."""
+
+
+class Shells(Kind):
+    """The kind of what has a brittle shell."""
+
+    order = 20
+    claims = "Shelled"
+    roles = frozenset({"Breakable"})
+    channels = (
+        Channel(
+            name="load",
+            doc="the greatest bond load over strength [1], or 0 where a screen shows that none can break",
+            role="Breakable",
+            default=True,
+        ),
+        Channel(
+            name="force",
+            doc="the sum of the normal forces on it, greatest within the tick [N]",
+            role="Breakable",
+            default=True,
+        ),
+        Channel(name="broken", doc="1 once one of its bonds has detached, else 0"),
+    )
+
+    def refuse(self, kb: KnowledgeBase) -> None:
+        """Refuse what is told of it that cannot be so."""
+        for name in kb.objects:
+            _refuse_strength(kb, name)
+
+    def parts(self, individuals: Individuals, whole: Thing) -> Made:
+        """Return it with its parts."""
+        return shelled(individuals, whole)
+
+    def fill(self, draft: Draft) -> tuple[Mapping[str, tuple[Thing, ...]], tuple[Pool, ...]]:
+        """Return what flows of it once all solids are at their places."""
+        found: dict[str, tuple[Thing, ...]] = {}
+        pools = draft.pools
+        for name, things in draft.things.items():
+            if not draft.individuals.kb.is_a(name, "Shelled"):
+                continue
+            spacing = next((pool.spacing for pool in pools), None)
+            stuffs, inside = egg_pools(things[0], [thing for thing in things if "Liquid" in thing.roles], spacing)
+            known = {stuff.name: stuff for stuff in stuffs}
+            found[name] = tuple(known.get(thing.name, thing) for thing in things)
+            pools += inside
+        return found, pools[len(draft.pools) :]
+
+    def edit(self, building: Building) -> None:
+        """Give each an explicit contact with everything else, whose stiffness breaking sets."""
+        scene = building.scene
+        shelled = {shell.whole for shell in scene.each(Shell)}
+        for thing in scene.things:
+            for other in scene.things if thing.name in shelled else ():
+                twice = other.name in shelled and other.name < thing.name
+                if other is not thing and not other.emerges and not twice:
+                    friction = min(friction_of(thing), friction_of(other))
+                    for i, j in product(range(len(thing.shape.geoms)), own_solids(other, scene.things)):
+                        building.add_pair(f"{thing.name}/{i}", f"{other.name}/{j}", friction, NEAR)
+
+    def start(self, state: Running) -> Sequence[Controller]:
+        """Return its controllers in one run."""
+        from prolepsis.matter.shells import breaking, membrane, opening
+
+        return [*breaking.start(state), *opening.start(state), *membrane.start(state)]
+
+
+def _refuse_strength(kb: KnowledgeBase, name: str) -> None:
+    """Refuse what does not break here though it is told to: its strength would never come to bear."""
+    if kb.is_a(name, "Shell"):
+        return
+    kinds = brief_list(c for c in kb.class_names() if "Shelled" in kb.vocabulary.told_classes((c,)))
+    known = kb.find(name, "breakingForce")
+    if known is not None and known.origin != "derived":
+        shells = [part for part in kb.parts(name) if kb.is_a(part, "Shell")]
+        if shells:
+            raise KnowledgeError(
+                f"{kb.place(name)}: {name} breaks by its shell; state the breakingForce of {shells[0]}"
+            )
+        raise KnowledgeError(
+            f"{kb.place(name)}: {name} ({kb.kind(name)}) has a breakingForce, but does not break here; "
+            f"what does: {kinds}"
+        )
+    if kb.whole(name) is None and kb.is_a(name, "Breakable") and not kb.is_a(name, "Shelled"):
+        raise KnowledgeError(
+            f"{kb.place(name)}: {name} ({kb.kind(name)}) is Breakable, but does not break here; what does: {kinds}"
+        )
+
+
+KIND = Shells()

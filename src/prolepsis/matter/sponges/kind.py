@@ -1,0 +1,38 @@
+"""Sponges: what absorbs takes up the liquid that it touches, carries it, drips, and gives it off under pressure."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from prolepsis.knowledge.knowledge_base import KnowledgeBase
+from prolepsis.scene.kind import Controller, Kind
+from prolepsis.scene.running import Running
+from prolepsis.terms.errors import KnowledgeError
+
+
+class Sponges(Kind):
+    """The kind of what absorbs."""
+
+    order = 40
+    roles = frozenset({"Absorbent"})
+
+    def refuse(self, kb: KnowledgeBase) -> None:
+        """Refuse what is told to be soaked without being told with what."""
+        for name in kb.objects:
+            soaked = kb.number(name, "saturation")
+            if soaked and not kb.objects_of("absorbs", name):
+                raise KnowledgeError(
+                    f"{name} has the saturation {soaked:g}, but of what? State the liquid that it :absorbs"
+                )
+
+    def start(self, state: Running) -> Sequence[Controller]:
+        """Return its controllers in one run."""
+        if state.particles is None:
+            return ()
+        from prolepsis.matter.sponges.absorbing import Absorbing
+
+        things = state.scene.things
+        return [Absorbing(state, thing) for thing in things if "Absorbent" in thing.roles and not thing.fixed]
+
+
+KIND = Sponges()
