@@ -213,7 +213,7 @@ def test_another_version_is_refused(saved: Path, tmp_path: Path) -> None:
     folder = shutil.copytree(saved, tmp_path / "log")
     text = (folder / MANIFEST).read_text().replace('"version": 2', '"version": 3')
     (folder / MANIFEST).write_text(text)
-    with pytest.raises(LogError, match="format version 2; this prolepsis reads 1"):
+    with pytest.raises(LogError, match="format version 3; this prolepsis reads 2"):
         read_log(folder)
 
 

@@ -138,12 +138,3 @@ def momentum(state: State) -> FloatArray:
         mujoco.mj_objectVelocity(state.model, state.data, mujoco.mjtObj.mjOBJ_BODY, body, velocity, 0)
         total += state.model.body_mass[body] * velocity[3:]
     return total
-
-
-def test_a_seeded_draw_gives_other_strengths_and_the_same_ones_again() -> None:
-    def first_load(seed: int) -> float:
-        log = run(EGG_IN_HAND, "close(hand1, 15)", duration=1.2, seed=seed, draw=True)
-        return float(log.channels["egg1.load"].max())
-
-    assert first_load(1) == first_load(1)
-    assert first_load(1) != first_load(2)

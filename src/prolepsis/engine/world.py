@@ -26,10 +26,10 @@ SMALL_SOLREF = (0.004, 1.0)
 """Contact of pieces and blobs, which weigh grams and would be passed through at the softer value."""
 SMALL_SOLIMP = (0.9, 0.95, 0.001, 0.5, 2.0)
 IMPEDANCE_RATIO, DEBRIS_IMPEDANCE_RATIO = 100.0, 10.0
-"""Friction over normal impedance [1]. Static friction is regularized: at 1 a held egg creeps by 2 mm/s, at 100 by less
-than 0.02. Once something has fallen to pieces the solver's time matters more, and shards in a grip may creep by 0.2."""
+"""Friction over normal impedance [1]. Static friction is regularized: at 1 what is gripped creeps by 2 mm/s, at 100 by
+less than 0.02. Once one has fallen to pieces the solver's time matters more, and pieces in a grip may creep by 0.2."""
 ROLLING_FRICTION = 2.0e-4
-"""Resistance of a smooth shell to rolling, as a length [m]; a tenth of a millimetre is usual for hard round things."""
+"""Resistance of a smooth thing to rolling, as a length [m]; a tenth of a millimetre is usual for hard round things."""
 SPINNING_FRICTION = 1.0e-3
 """Resistance to spinning on the spot, as a length [m]."""
 MOST_MOVING, MOST_SOLIDS = 2000, 20_000

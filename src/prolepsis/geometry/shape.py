@@ -13,6 +13,8 @@ IntArray = npt.NDArray[np.int64]
 BoolArray = npt.NDArray[np.bool_]
 Triple = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
+Colour = tuple[float, float, float, float]
+"""Red, green, blue and opacity, each 0..1."""
 
 GEOM_TYPES = ("plane", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh")
 """Convex primitives, with MuJoCo's names and size conventions (half extents)."""
@@ -75,7 +77,7 @@ class Shape:
     """The closed surface of a shape that was read from a mesh."""
     holes: tuple[Hole, ...] = ()
     """What is drilled out of the profile."""
-    colour: tuple[float, float, float, float] = (0.7, 0.7, 0.7, 1.0)
+    colour: Colour = (0.7, 0.7, 0.7, 1.0)
     """Red, green, blue, alpha, each 0..1, for pictures only."""
 
 

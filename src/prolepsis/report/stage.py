@@ -19,10 +19,6 @@ PLAIN = (0.7, 0.7, 0.7, 1.0)
 COLOURS = {
     "Floor": (0.80, 0.80, 0.78, 1.0),
     "Table": (0.62, 0.45, 0.30, 1.0),
-    "EggYolk": (0.97, 0.68, 0.10, 1.0),
-    "Yolk": (0.97, 0.68, 0.10, 1.0),
-    "EggWhite": (0.96, 0.95, 0.85, 0.45),
-    "White": (0.96, 0.95, 0.85, 0.45),
     "Piece": (0.90, 0.78, 0.66, 1.0),
 }
 """Colours of things whose shape has none of its own, by class or role."""

@@ -15,6 +15,7 @@ from prolepsis.knowledge.situation import MOST_INDIVIDUALS
 from prolepsis.log.things import FIXED, FREE, Thing
 from prolepsis.scenario.file import DEFAULT_PARTICLES
 from prolepsis.scene.coherence import refuse_nonsense
+from prolepsis.scene.colours import colour_of
 from prolepsis.scene.kind import Draft, Individuals, Kind, Made, Roles
 from prolepsis.scene.placing import resting_height
 from prolepsis.scene.scene import Pool, Scene
@@ -27,23 +28,6 @@ from prolepsis.terms.errors import KnowledgeError, brief_list
 
 ROLES = frozenset({"Container", "Stuff", "Liquid", "Furniture", "Floor", "Table", "WetThing", "DirtyThing"})
 """Classes that physics or recognition goes by, whatever the kinds."""
-COLOURS = {
-    "Egg": (0.93, 0.84, 0.73, 1.0),
-    "QuailEgg": (0.80, 0.72, 0.60, 1.0),
-    "HardBoiledEgg": (0.93, 0.84, 0.73, 1.0),
-    "Coconut": (0.42, 0.29, 0.18, 1.0),
-    "MandM": (0.80, 0.20, 0.16, 1.0),
-    "Table": (0.60, 0.44, 0.30, 1.0),
-    "Bowl": (0.62, 0.78, 0.85, 0.55),
-    "GlassBowl": (0.62, 0.78, 0.85, 0.55),
-    "PaperBowl": (0.95, 0.94, 0.90, 1.0),
-    "ClayBowl": (0.62, 0.38, 0.27, 1.0),
-    "Cup": (0.75, 0.42, 0.32, 1.0),
-    "Block": (0.80, 0.62, 0.36, 1.0),
-    "Ball": (0.78, 0.24, 0.22, 1.0),
-    "Sponge": (0.95, 0.83, 0.30, 1.0),
-}
-"""Colours of classes, for pictures only."""
 FEATURES = ("lid",)
 """What a shape may have or not."""
 ATTRIBUTES = {"wet": "WetThing", "dirty": "DirtyThing", "broken": "BrokenThing"}
@@ -152,7 +136,7 @@ def _thing(kb: KnowledgeBase, name: str, roles: Roles, later: Collection[str] | 
     return Thing(
         name=name,
         kind=kind,
-        shape=replace(built, colour=COLOURS.get(kind, Shape().colour)),
+        shape=replace(built, colour=colour_of(kb, name)),
         position=(quantities.get("x", 0.0), quantities.get("y", 0.0), quantities.get("z", default_height)),
         orientation=orientation,
         mass=quantities.get("mass", 0.0),

@@ -41,7 +41,7 @@ class Scene:
     parts_known: tuple[object, ...] = field(default=(), compare=False)
     """What parts are, as values of a type of their own: a shard, a panel, a membrane."""
     kinds: tuple[Any, ...] = field(default=(), compare=False)
-    """Each a ``Kind``: those that it was composed of, and that go on to act in the world and the run, in their order."""
+    """Each a ``Kind``: those that it was composed of, and that go on in the world and the run, in their order."""
     domain: Domain = Domain()
     """What is known of the individuals."""
     gravity: Triple = (0.0, 0.0, -9.81)

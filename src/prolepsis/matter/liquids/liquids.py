@@ -2,25 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 from prolepsis.geometry.shape import Shape
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.log.things import WITHIN, Thing
+from prolepsis.scene.colours import colour_of
 from prolepsis.terms.errors import KnowledgeError
 
 RELATIONS = ("contains", "on", "absorbs")
 """How a liquid is told to be somewhere."""
-COLOURS: Mapping[str, tuple[float, float, float, float]] = {
-    "Water": (0.55, 0.75, 0.92, 0.6),
-    "Coffee": (0.24, 0.14, 0.07, 1.0),
-    "Milk": (0.97, 0.96, 0.93, 1.0),
-    "OliveOil": (0.72, 0.66, 0.16, 0.8),
-    "PancakeBatter": (0.95, 0.87, 0.64, 1.0),
-    "Honey": (0.90, 0.58, 0.10, 0.9),
-}
-"""Colours of liquids, for pictures only."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -45,7 +36,7 @@ def liquid_thing(kb: KnowledgeBase, name: str, roles: frozenset[str]) -> Thing:
     return Thing(
         name=name,
         kind=kind,
-        shape=Shape(colour=COLOURS.get(kind, COLOURS["Water"])),
+        shape=Shape(colour=colour_of(kb, name)),
         mount=WITHIN,
         roles=roles,
         quantities=quantities,

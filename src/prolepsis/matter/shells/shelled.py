@@ -10,6 +10,7 @@ from prolepsis.geometry.shape import Geom, Shape
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.log.things import WITHIN, Thing
 from prolepsis.matter.shells.egg_things import room_within, shell_pieces
+from prolepsis.scene.colours import colour_of
 from prolepsis.scene.kind import Individuals, Made
 from prolepsis.scene.parts import Kernel
 from prolepsis.terms.errors import KnowledgeError
@@ -31,10 +32,8 @@ NEEDED = (
     "friction",
 )
 """What must be known of a shell."""
-STUFFS = {"EggYolk": (0.98, 0.72, 0.08, 1.0), "EggWhite": (0.93, 0.93, 0.82, 0.75), "Liquid": (0.86, 0.90, 0.90, 0.6)}
-"""What flows out of a shell, from the middle outwards, and its colour, for pictures only."""
-KERNELS = {"ChocolateKernel": (0.30, 0.17, 0.10, 1.0), "Kernel": (0.97, 0.96, 0.90, 1.0)}
-"""Firm kernels and their colour, for pictures only."""
+STUFFS = ("EggYolk", "EggWhite", "Liquid")
+"""What flows out of a shell, from the middle outwards."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -93,7 +92,7 @@ def shelled(individuals: Individuals, whole: Thing) -> Made:
             raise KnowledgeError(f"{shell.name} ({shell.kind}) has no {needed}; state it")
     inside = [part for part in parts if part is not shell]
     stuffs = [
-        replace(part, shape=Shape(colour=STUFFS[cls]))
+        replace(part, shape=Shape(colour=colour_of(kb, part.name)))
         for cls in STUFFS
         for part in inside
         if next((known for known in STUFFS if kb.is_a(part.name, known)), None) == cls
@@ -145,6 +144,5 @@ def _part(kb: KnowledgeBase, name: str, whole: Thing, roles: frozenset[str]) -> 
 def _kernel(kb: KnowledgeBase, part: Thing, whole: Thing, shell: Thing) -> Thing:
     """Return the kernel: hidden in the shell as its pieces are, and drawn in by what the flat pieces take up."""
     a, b, c = (float(v) for v in room_within(whole, shell) * np.asarray(whole.shape.geoms[0].size))
-    colour = next(KERNELS[cls] for cls in KERNELS if kb.is_a(part.name, cls))
-    shape = Shape(geoms=(Geom(type="ellipsoid", size=(a, b, c)),), colour=colour)
+    shape = Shape(geoms=(Geom(type="ellipsoid", size=(a, b, c)),), colour=colour_of(kb, part.name))
     return replace(part, shape=shape, roles=part.roles | {"Piece"})

@@ -1,0 +1,64 @@
+"""The house: what is general names no kind, every room is told of, no file is too long or lacks a first sentence."""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+SOURCE = ROOT / "src" / "prolepsis"
+GENERAL = ("engine/simulation", "engine/state", "engine/world", "engine/recorder", "scene/compose", "report/stage")
+"""What knows kinds of matter, of hands and of robots only by the steps of ``scene/kind.py``."""
+KINDS = re.compile(r"eggs?|shell(s|ed)?|panels?|yolks?|fingers?|sponges?|bowls?", re.IGNORECASE)
+LONGEST = 400
+"""Lines of a file that one can still explain in a sentence."""
+
+
+def words(file: Path) -> list[tuple[int, str]]:
+    """Return the words of a file with their lines, those within names and texts too, but for MuJoCo's own names."""
+    parted = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")
+    mujoco = re.compile(r"\bmj\w+")
+    lines = enumerate(mujoco.sub("", file.read_text(encoding="utf-8")).splitlines(), 1)
+    return [(number, word) for number, line in lines for word in parted.findall(line)]
+
+
+@pytest.mark.parametrize("name", GENERAL)
+def test_what_is_general_names_no_kind(name: str) -> None:
+    found = [f"{name}.py:{line}: {word}" for line, word in words(SOURCE / f"{name}.py") if KINDS.fullmatch(word)]
+    assert not found
+
+
+def test_the_scan_finds_a_kind_in_names_and_comments(tmp_path: Path) -> None:
+    (tmp_path / "a.py").write_text('eggShell = "panelCount"  # as fish_finger\n')
+    assert [word for _, word in words(tmp_path / "a.py") if KINDS.fullmatch(word)] == [
+        "egg",
+        "Shell",
+        "panel",
+        "finger",
+    ]
+
+
+def test_the_house_is_drawn_as_it_is() -> None:
+    drawn = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    rooms = [folder.name for folder in SOURCE.iterdir() if (folder / "__init__.py").exists()]
+    assert len(rooms) > 10
+    assert [room for room in rooms if f"`{room}/`" not in drawn] == []
+
+
+def test_no_file_is_loose() -> None:
+    loose = {file.stem for file in SOURCE.glob("*.py")}
+    assert loose == {"__init__", "__main__", "cli", "projection"}
+
+
+@pytest.mark.parametrize("folder", ["src", "tests", "tools", "benchmarks"])
+def test_every_file_says_what_it_is_and_is_short(folder: str) -> None:
+    files = list((ROOT / folder).rglob("*.py"))
+    assert files
+    for file in files:
+        text = file.read_text(encoding="utf-8")
+        said = ast.get_docstring(ast.parse(text))
+        assert said or not text.strip(), f"{file}: no first sentence"
+        assert len(text.splitlines()) <= LONGEST or folder != "src", f"{file}: longer than {LONGEST} lines"
