@@ -94,6 +94,7 @@ def digest_of_log(log: Log) -> dict[str, Any]:
     order = sorted(range(len(names)), key=names.__getitem__)
     frames = log.particles
     kinds = [(names[i], float(m), float(v)) for i, m, v in zip(frames.stuff, frames.mass, frames.volume, strict=True)]
+    own = [part for name, column in sorted(frames.columns.items()) for part in (name, column)]
     return {
         "things": _digest(names[i] for i in order),
         "poses": _digest([log.dt, log.time, *(part for i in order for part in (names[i], log.poses[:, i]))]),
@@ -101,7 +102,9 @@ def digest_of_log(log: Log) -> dict[str, Any]:
         "contacts": _rows(log.contacts, names, named=("a", "b")),
         "bonds": _rows(log.bonds, names, named=("a", "b")),
         "detachments": _rows(log.detachments, names, named=("thing", "a", "b")),
-        "particles": _digest([frames.tick, frames.position, frames.spacing, *_named(frames.holder, names), *kinds]),
+        "particles": _digest(
+            [frames.tick, frames.position, frames.spacing, *_named(frames.holder, names), *kinds, *own]
+        ),
         "channels": _digest(part for name in sorted(log.channels) for part in (name, log.channels[name])),
         "actions": _digest((str(a.term), a.start, a.end, a.outcome, sorted(a.evidence.items())) for a in log.actions),
     }

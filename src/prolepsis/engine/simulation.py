@@ -18,7 +18,7 @@ from prolepsis.engine.sinking import sinkings
 from prolepsis.engine.state import State
 from prolepsis.engine.world import World
 from prolepsis.geometry.shape import FloatArray
-from prolepsis.log.happenings import Happening, happening_columns
+from prolepsis.log.happenings import happening_columns
 from prolepsis.log.log import Action, Contacts, Log
 from prolepsis.log.things import Thing
 from prolepsis.programs.program import Program
@@ -70,7 +70,7 @@ def simulate(
     """
     if duration is not None and not TICK <= duration <= LONGEST:
         raise ScenarioError(f"duration: {duration:g} s is not between {TICK:g} and {LONGEST:g} s")
-    state = State.of(world)
+    state = State.of(world, seed)
     things = world.scene.things
     going = [controller for kind in world.scene.kinds for controller in kind.start(state)]
     for each in going:
@@ -79,7 +79,6 @@ def simulate(
     recorder = Recorder()
     frames = Frames()
     channels = Channels(chosen_channels(world.scene, monitors))
-    happenings: list[tuple[int, Happening]] = []
     running: dict[Term, list[int]] = {}
     actions: list[Action] = []
     behaviour = program.start(_sense(state, controls, 0.0))
@@ -125,7 +124,7 @@ def simulate(
             # Matter, in its one order.
             for acting in going:
                 version, splits = state.version, state.splits
-                happenings += [(tick, happening) for happening in acting.act(state)]
+                acting.act(state)
                 if state.version != version:
                     if state.splits != splits:
                         for each in going:
@@ -143,11 +142,12 @@ def simulate(
             each.end_tick(state)
         controls.measure(state)
         tick += 1
+        state.tick = tick
 
     cut = [(term, start) for term, starts in running.items() for start in starts]
     actions += [Action(term=term, start=start, end=tick, outcome="cut") for term, start in cut]
     poses, carriers = recorder.pose_columns()
-    contacts, particles = recorder.contact_columns(TICK), frames.columns(state)
+    contacts, particles = recorder.contact_columns(TICK), frames.table(state)
     _refuse_passed(things, recorder, poses, contacts)
     _refuse_gained(things, recorder, poses, recorder.surroundings(contacts, particles), np.array(world.scene.gravity))
     return Log(
@@ -158,7 +158,7 @@ def simulate(
         carrier=carriers,
         contacts=contacts,
         bonds=recorder.bond_columns(),
-        happenings=happening_columns(happenings),
+        happenings=happening_columns(state.happenings),
         channels=channels.columns(),
         actions=tuple(sorted((a for a in actions if a.end > a.start), key=lambda a: (a.start, -a.end, str(a.term)))),
         particles=particles,

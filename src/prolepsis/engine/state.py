@@ -10,12 +10,14 @@ import numpy as np
 
 from prolepsis.engine.world import DEBRIS_IMPEDANCE_RATIO, World, add_geom
 from prolepsis.geometry.shape import FloatArray, IntArray, Quaternion, Triple
+from prolepsis.log.happenings import Happening
 from prolepsis.log.things import Thing
 from prolepsis.robots.turned import compose_pose, relative_pose
 from prolepsis.scene.particles import ParticleState
 from prolepsis.scene.running import ContactForces, PointJoint
 from prolepsis.scene.scene import Scene
 from prolepsis.system.mujoco import mujoco
+from prolepsis.system.seeds import child_of
 
 FEW_CONTACTS = 16
 """Up to so many contacts, plain lists are faster than arrays."""
@@ -41,6 +43,12 @@ class State:
     """Index of the thing that each MuJoCo body is, -1 for none, shape (nbody,)."""
     version: int = 0
     """Counts the rebuilt models."""
+    seed: int = 1
+    """Of all that is random in the run."""
+    tick: int = 0
+    """The present one."""
+    happenings: list[tuple[int, Happening]] = field(default_factory=list[tuple[int, Happening]])
+    """What has been reported, with its tick."""
     splits: int = 0
     """Counts the bodies that have fallen apart."""
     warnings: int = 0
@@ -59,7 +67,7 @@ class State:
     _pairs_at: tuple[int, float] = (-1, 0.0)
 
     @classmethod
-    def of(cls, world: World) -> State:
+    def of(cls, world: World, seed: int = 1) -> State:
         """Return the state at the start of a run."""
         things = world.scene.things
         index = {thing.name: i for i, thing in enumerate(things)}
@@ -70,6 +78,7 @@ class State:
             carrier[i] = _carrier(things, index, i)
         state = cls(
             world=world,
+            seed=seed,
             spec=spec,
             model=model,
             data=world.start(model),
@@ -96,6 +105,10 @@ class State:
         index = {thing.name: i for i, thing in enumerate(self.scene.things)}
         self.body_thing = np.array([index.get(self.model.body(b).name, -1) for b in range(self.model.nbody)])
 
+    def report(self, happening: Happening) -> None:
+        """Tell the log that something has happened in this tick."""
+        self.happenings.append((self.tick, happening))
+
     def attribute(self, name: str, attribute: str) -> float:
         """Return an attribute of a thing: as changed by a controller, as known at the start, or 0."""
         changed = self.attributes.get((name, attribute))
@@ -121,6 +134,10 @@ class State:
                     slippery = min(friction, float(pair.friction[0]))
                     pair.friction = [slippery, slippery, *pair.friction[2:]]
                     self.model.pair(pair.name).friction[:2] = slippery
+
+    def generator(self, name: str) -> np.random.Generator:
+        """Return the source of randomness for what is called ``name``."""
+        return child_of(self.seed, name)
 
     def pose(self, name: str) -> FloatArray:
         """Return where a thing is and how it is turned, shape (7,); one that is no body any more is as at the start."""

@@ -65,6 +65,10 @@ def check_log(log: Log) -> None:
     _check_range("bonds: end", bonds.end, 0, ticks + 1)
     for name in ("position", "mass", "volume"):
         _check_numbers(f"particles: {name}", getattr(particles, name))
+    for name, column in particles.columns.items():
+        _check_numbers(f"particles: {name}", column)
+        if column.shape != particles.holder.shape:
+            raise ValueError(f"particles: {name} has another shape than their holders")
     if len(particles.stuff) and not 0.0 < particles.spacing < FARTHEST:
         raise ValueError(f"particles: a spacing of {particles.spacing} m is not positive")
     check_types(log.happenings)

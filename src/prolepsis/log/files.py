@@ -26,6 +26,7 @@ _EXACTLY = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
 _TICKS, _POSES, _CONTACTS = "ticks.parquet", "poses.parquet", "contacts.parquet"
 _BONDS, _HAPPENINGS = "bonds.parquet", "happenings_{}.parquet"
 _FRAMES, _KINDS, _PLACES = "particle_frames.parquet", "particle_kinds.parquet", "particles.parquet"
+_OWN = "particle_columns.parquet"
 
 
 class _Action(BaseModel):
@@ -40,6 +41,7 @@ class _Action(BaseModel):
 class _Particles(BaseModel):
     model_config = _EXACTLY
     spacing: float
+    columns: tuple[str, ...]
 
 
 class _Happenings(BaseModel):
@@ -97,7 +99,7 @@ def write_log_files(log: Log, path: Path) -> None:
             type: {"things": list(each.things), "numbers": list(each.numbers)}
             for type, each in sorted(log.happenings.items())
         },
-        "particles": {"spacing": log.particles.spacing} if _has_particles(log) else None,
+        "particles": _plain_particles(log.particles) if _has_particles(log) else None,
     }
     write_json(path / HEAD, head)
     sizes: dict[str, int] = {}
@@ -128,6 +130,9 @@ def _tables_of(log: Log) -> Iterator[tuple[str, tables.Columns, tables.Kinds]]:
         yield _KINDS, particle_tables.kind_columns(log.particles), particle_tables.KINDS
         places = particle_tables.place_columns(log.particles)
         yield _PLACES, places, particle_tables.place_kinds(places)
+        if log.particles.columns:
+            own = particle_tables.own_columns(log.particles)
+            yield _OWN, own, dict.fromkeys(own, "float")
 
 
 def read_log_files(path: Path) -> Log:
@@ -141,8 +146,9 @@ def read_log_files(path: Path) -> Log:
         things = head.things
         check_types(head.happenings)
         reported = [_HAPPENINGS.format(type) for type in head.happenings]
-        dry, wet = (_TICKS, _POSES, _CONTACTS, _BONDS, *reported), (_FRAMES, _KINDS, _PLACES)
-        tables.check_unpacked_sizes(path / name for name in (*dry, *(wet if head.particles else ())))
+        wet = (_FRAMES, _KINDS, _PLACES, *((_OWN,) if head.particles.columns else ())) if head.particles else ()
+        names = (_TICKS, _POSES, _CONTACTS, _BONDS, *reported, *wet)
+        tables.check_unpacked_sizes(path / name for name in names)
         ticks = tables.read_table(path / _TICKS)
         time = ticks.pop("time")
         poses, carrier = tables.poses_from(tables.read_table(path / _POSES, tables.POSES), len(time), len(things))
@@ -192,8 +198,9 @@ def _particles(head: _Particles | None, path: Path, thing_count: int, tick_count
     frames = tables.read_table(path / _FRAMES, particle_tables.FRAMES)
     kinds = tables.read_table(path / _KINDS, particle_tables.KINDS)
     places = tables.read_table(path / _PLACES, particle_tables.WHOLE_PLACES, particle_tables.FINE_PLACES)
+    own = tables.read_table(path / _OWN, dict.fromkeys(head.columns, "float")) if head.columns else {}
     return particle_tables.particles_from(
-        frames, kinds, places, spacing=head.spacing, thing_count=thing_count, tick_count=tick_count
+        frames, kinds, places, own, spacing=head.spacing, thing_count=thing_count, tick_count=tick_count
     )
 
 
@@ -208,6 +215,10 @@ def _plain(value: Any) -> Any:
     if isinstance(value, Mapping):
         return {str(key): float(number) for key, number in cast("Mapping[str, float]", value).items()}
     return cast(Any, value).item() if isinstance(value, np.generic) else value
+
+
+def _plain_particles(particles: Particles) -> dict[str, Any]:
+    return {"spacing": particles.spacing, "columns": sorted(particles.columns)}
 
 
 def _plain_action(action: Action) -> dict[str, Any]:

@@ -110,6 +110,8 @@ class Particles:
     """[kg], shape (P,)."""
     volume: FloatArray = field(default_factory=lambda: np.zeros(0))
     """[m^3], shape (P,)."""
+    columns: Mapping[str, npt.NDArray[np.float32]] = field(default_factory=dict[str, "npt.NDArray[np.float32]"])
+    """What kinds of matter know of them beside, by name, each of shape (F, P)."""
     spacing: float = 0.0
     """Distance of neighbours in the liquid at rest [m]: the cube root of a particle's volume. A particle that lies on a
     wall has its centre half a spacing from it."""

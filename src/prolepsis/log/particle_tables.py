@@ -59,6 +59,11 @@ def place_columns(particles: Particles) -> Mapping[str, Column]:
     return keys | {axis: whole[:, i] for i, axis in enumerate(_WHOLE_AXES)}
 
 
+def own_columns(particles: Particles) -> Mapping[str, Column]:
+    """Return what kinds of matter know beside as long columns, in the order of ``place_columns``."""
+    return {name: column.T.reshape(-1) for name, column in sorted(particles.columns.items())}
+
+
 def place_kinds(columns: Mapping[str, Column]) -> Mapping[str, str]:
     """Return what the columns of ``place_columns`` consist of."""
     return WHOLE_PLACES if _WHOLE_AXES[0] in columns else FINE_PLACES
@@ -68,6 +73,7 @@ def particles_from(
     frames: Mapping[str, Column],
     kinds: Mapping[str, Column],
     places: Mapping[str, Column],
+    own: Mapping[str, Column],
     *,
     spacing: float,
     thing_count: int,
@@ -99,6 +105,7 @@ def particles_from(
         stuff=stuff,
         mass=kinds["mass"],
         volume=kinds["volume"],
+        columns={name: np.ascontiguousarray(column.reshape(shape).T, dtype=np.float32) for name, column in own.items()},
         spacing=spacing,
     )
 

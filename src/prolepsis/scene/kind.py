@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
-from prolepsis.log.happenings import Happening
 from prolepsis.log.things import Thing
 from prolepsis.scene.running import MAX_STEP, Running
 from prolepsis.scene.scene import Pool, Scene
@@ -116,13 +115,12 @@ class Controller:
         """Return whether the substeps of the coming tick need no look one by one."""
         return True
 
-    def act(self, state: Running) -> Sequence[Happening]:
-        """Do its work after a substep, and return what happened."""
+    def act(self, state: Running) -> None:
+        """Do its work after a substep."""
         del state
-        return ()
 
     def end_tick(self, state: Running) -> None:
-        """Do what comes after a tick: what need not be done every substep, and the attributes that it measures."""
+        """Do what need not be done every substep, and set the attributes that it measures."""
         del state
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
@@ -38,10 +38,14 @@ class ParticleState:
     """Cosine of the contact angle on walls [1], shape (P,)."""
     pinning: FloatArray
     """How much the cosine of the contact angle may differ before an edge moves [1], shape (P,)."""
+    home: FloatArray
+    """Where each is in the frame of the thing that holds it [m], shape (P, 3); of no meaning for others."""
     spacing: float
     """Distance of neighbours at rest [m]."""
     behind: float = 0.0
     """Time since their last step [s]; the bodies are that much ahead."""
+    columns: dict[str, FloatArray] = field(default_factory=dict[str, FloatArray])
+    """What kinds of matter know of them beside, by name, each of shape (P,): temperature, share of milk ..."""
 
     def now(self) -> FloatArray:
         """Return where they are by now if they have gone on as in their last step, shape (P, 3)."""

@@ -6,7 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+import numpy as np
+
 from prolepsis.geometry.shape import FloatArray, IntArray, Quaternion, Triple
+from prolepsis.log.happenings import Happening
 from prolepsis.scene.particles import ParticleState
 from prolepsis.scene.scene import Scene
 
@@ -73,6 +76,10 @@ class Running(Protocol):
         """What the run began with."""
         ...
 
+    def report(self, happening: Happening) -> None:
+        """Tell the log that something has happened in this tick."""
+        ...
+
     def attribute(self, name: str, attribute: str) -> float:
         """Return an attribute of a thing: as changed in this run, as known at the start, or 0."""
         ...
@@ -83,6 +90,10 @@ class Running(Protocol):
 
     def set_friction(self, index: int, friction: float) -> None:
         """Give a thing's surface another sliding friction [1], for the rest of the run."""
+        ...
+
+    def generator(self, name: str) -> np.random.Generator:
+        """Return the source of randomness for what is called ``name``, a child of the scenario's seed."""
         ...
 
     def pose(self, name: str) -> FloatArray:

@@ -76,6 +76,7 @@ class Tank:
         self.particles = ParticleState(
             position=position.copy(),
             velocity=np.zeros((count, 3)),
+            home=np.zeros((count, 3)),
             holder=np.full(count, FREE, dtype=np.int16),
             stuff=np.zeros(count, dtype=np.int64),
             mass=np.full(count, density * spacing**3),

@@ -14,7 +14,6 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.geometry.solids import matrix
-from prolepsis.log.happenings import Happening
 from prolepsis.scene.kind import Controller
 from prolepsis.scene.running import PointJoint, Running
 
@@ -77,10 +76,10 @@ class Adhesion(Controller):
         if self.holds:
             self._join(state)
 
-    def act(self, state: Running) -> Sequence[Happening]:
+    def act(self, state: Running) -> None:
         """Take apart what is pulled too hard; nothing breaks by that."""
         if not self.holds or not self._joined:
-            return ()
+            return
         time = float(state.data.time)
         share = min(1.0, float(state.model.opt.timestep) / JOLT)
         forces = state.joint_forces()
@@ -107,7 +106,6 @@ class Adhesion(Controller):
                 state.data.eq_active[joint] = 0
                 self.holds = [kept for kept in self.holds if kept is not hold]
         self._report(state)
-        return ()
 
     def _pressed(self, state: Running, hold: Hold) -> float:
         """Return the force with which contact presses the two bodies together [N]."""

@@ -11,13 +11,11 @@ Source:
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.geometry.solids import matrix
-from prolepsis.log.happenings import Happening
 from prolepsis.matter.films.adhesion import Adhesion, Hold
 from prolepsis.scene.parts import Kernel, Shard
 from prolepsis.scene.running import Running
@@ -52,7 +50,7 @@ class Sticking(Adhesion):
         self._ticks += 1
         self._due = True
 
-    def act(self, state: Running) -> Sequence[Happening]:
+    def act(self, state: Running) -> None:
         """Find what has come to stick together, and take apart what is pulled too hard."""
         if self._due:
             self._due = False
@@ -61,8 +59,8 @@ class Sticking(Adhesion):
                 new += self._wetted(state)
             if new:
                 self.stick(state, new)
-                return ()
-        return super().act(state)
+                return
+        super().act(state)
 
     def _opened(self, state: Running) -> list[Hold]:
         """Return what holds the pieces of shells that have just opened to their kernels."""

@@ -173,6 +173,7 @@ def _particles(state: Running) -> ParticleState:
     return ParticleState(
         position=position,
         velocity=np.zeros_like(position),
+        home=np.zeros_like(position),
         holder=table[:, 1].astype(np.int16),
         stuff=table[:, 0].astype(np.int64),
         mass=table[:, 2].copy(),

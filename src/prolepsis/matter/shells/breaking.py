@@ -171,11 +171,11 @@ class Breaking(Controller):
         """
         return self._calm
 
-    def act(self, state: Running) -> Sequence[Happening]:
-        """Break what the contact forces of the last substep overload, and return the detached bonds."""
+    def act(self, state: Running) -> None:
+        """Break what the contact forces of the last substep overload."""
         if not state.data.ncon:
             self._steady = False
-            return []
+            return
         totals = self._contact_totals(state)
         self._compare(state, totals)
         self.force = max(self.force, *totals.values(), 0.0)
@@ -191,12 +191,13 @@ class Breaking(Controller):
             through = self._dents.grow(state)
             if through and not self.fragments[0].parts:
                 detached += self._punch(state, through)
+        for each in detached:
+            state.report(each)
         if self._changed:
             self._changed = False
             state.set_attribute(self.thing.name, "broken", 1.0)
             state.set_attribute(self.shell_name, "broken", 1.0)
             self._fall_apart(state)
-        return detached
 
     def end_tick(self, state: Running) -> None:
         """Tell load and force."""

@@ -10,12 +10,11 @@ Source:
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, IntArray
-from prolepsis.log.happenings import Happening, detachment
+from prolepsis.log.happenings import detachment
 from prolepsis.log.log import FREE
 from prolepsis.matter.shells.shelled import Membraned
 from prolepsis.scene.kind import Controller
@@ -50,13 +49,6 @@ class Membrane(Controller):
         self.tension = 0.0
         """Tension round the yolk [N/m]."""
         self.broken = False
-        self._news: list[Happening] = []
-
-    def act(self, state: Running) -> Sequence[Happening]:
-        """Return that it has torn, once."""
-        del state
-        news, self._news = self._news, []
-        return news
 
     def end_tick(self, state: Running) -> None:
         """Hold the yolk together, or tear."""
@@ -78,7 +70,7 @@ class Membrane(Controller):
         if self.tension > self.strength:
             self.broken = True
             state.set_attribute(self._name, "broken", 1.0)
-            self._news.append(detachment(self._index, self._index, self._index, force))
+            state.report(detachment(self._index, self._index, self._index, force))
             return
         self._places, self._push = places, MAX_STEP * pull
         particles.velocity[self._own] += self._push

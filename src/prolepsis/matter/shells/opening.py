@@ -9,7 +9,6 @@ from prolepsis.log.log import FREE
 from prolepsis.log.things import Thing
 from prolepsis.matter.shells.shelled import Shell
 from prolepsis.scene.kind import Controller
-from prolepsis.scene.particles import PERIOD
 from prolepsis.scene.running import Running
 
 
@@ -34,8 +33,8 @@ class Opening(Controller):
         body = state.data.body(thing.name)
         turn = body.xmat.reshape(3, 3)
         self._places = (state.particles.position[self._inside] - body.xpos) @ turn
+        state.particles.home[self._inside] = self._places
         self._pose, self._motion = state.pose(thing.name), np.zeros(6)
-        self._ticks = 0
 
     def bind(self, state: Running) -> None:
         """Look up what it needs in a model that is new."""
@@ -45,15 +44,12 @@ class Opening(Controller):
             self._now = state.data.qpos[place : place + 7], state.data.qvel[speed : speed + 6]
 
     def end_tick(self, state: Running) -> None:
-        """Carry what is inside, or let it out."""
+        """Let out what is inside where the shell has fallen apart."""
         particles = state.particles
         if particles is None or not len(self._inside):
             return
-        self._ticks += 1
         if state.carrier[self._index] >= 0:
             self._pose, self._motion = self._now[0].copy(), self._now[1].copy()
-            if self._ticks % PERIOD == 0:
-                particles.position[self._inside] = self._pose[:3] + self._places @ matrix(self._pose[3:]).T
             return
         turn = matrix(self._pose[3:])
         arms = self._places @ turn.T

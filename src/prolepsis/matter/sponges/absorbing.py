@@ -54,13 +54,15 @@ class Absorbing(Controller):
         self._faces = size.prod() / size
         count = len(particles.mass)
         # Liquids that it holds come out mixed.
-        self._order = np.random.default_rng(0).permutation(count)
+        self._random = state.generator(thing.name)
+        self._order = self._random.permutation(count)
         self._homes = self.surface.inside(count)[self._order]
+        held = self.held(particles)
+        particles.home[held] = self._homes[held]
         self._body = CarriedMass(thing.name, thing.mass)
         self._due = 0.0
         self._wanted = 0.0
         self._ticks = 0
-        self._carry(state, particles)
 
     def held(self, particles: ParticleState) -> IntArray:
         """Return the particles that it holds, shape (n,)."""
@@ -73,7 +75,7 @@ class Absorbing(Controller):
             self._set_mass(state, state.particles)
 
     def end_tick(self, state: Running) -> None:
-        """Take liquid up, give it off, and carry what it holds."""
+        """Take liquid up, and give it off."""
         self._ticks += 1
         if self._ticks % LOOK_TICKS or state.particles is None:
             return
@@ -91,7 +93,6 @@ class Absorbing(Controller):
             changed += self._take_up(state, particles, held, dt)
         if changed:
             self._set_mass(state, particles)
-        self._carry(state, particles)
 
     def _frame(self, state: Running) -> tuple[FloatArray, FloatArray]:
         body = state.data.body(self.thing.name)
@@ -120,13 +121,6 @@ class Absorbing(Controller):
     def _set_mass(self, state: Running, particles: ParticleState) -> None:
         self._body.set(state, float(particles.mass[self.held(particles)].sum()))
 
-    def _carry(self, state: Running, particles: ParticleState) -> None:
-        held = self.held(particles)
-        if len(held):
-            origin, turn = self._frame(state)
-            particles.position[held] = origin + self._homes[held] @ turn.T
-            particles.velocity[held] = self._velocity(state, particles.position[held])
-
     def _take_up(self, state: Running, particles: ParticleState, held: float, dt: float) -> int:
         """Take up free particles that touch it, and return how many."""
         law, spacing = self.law, particles.spacing
@@ -153,6 +147,7 @@ class Absorbing(Controller):
         if len(taken):
             self._body.collide(state, particles.position[taken], particles.velocity[taken], particles.mass[taken])
             particles.holder[taken] = self.index
+            particles.home[taken] = self._homes[taken]
         return len(taken)
 
     def _give_off(self, state: Running, particles: ParticleState, dripping: float, pressed: float, dt: float) -> int:
@@ -184,8 +179,7 @@ class Absorbing(Controller):
 
     def _shuffled(self, open: BoolArray) -> IntArray:
         """Return in which order equally low places come, a different one each time."""
-        rng = np.random.default_rng(self._ticks)
-        return rng.permutation(len(open))[open]
+        return self._random.permutation(len(open))[open]
 
     def _is_free(self, state: Running, particles: ParticleState, places: FloatArray) -> BoolArray:
         """Return at which places neither a wall nor another particle is in the way."""

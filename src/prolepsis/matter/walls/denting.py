@@ -9,7 +9,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from prolepsis.log.happenings import Happening
 from prolepsis.scene.kind import Controller
 from prolepsis.scene.parts import Panel
 from prolepsis.scene.running import Running
@@ -31,7 +30,7 @@ class Denting(Controller):
         """Look up what it needs in a model that is new."""
         self._places = np.array([int(state.model.joint(name).qposadr[0]) for name in self._names])
 
-    def act(self, state: Running) -> Sequence[Happening]:
+    def act(self, state: Running) -> None:
         """Let the panels that bear too great a moment give way."""
         angle = state.data.qpos[self._places]
         rest = np.clip(self.rest, angle - self._most, angle + self._most)
@@ -40,7 +39,6 @@ class Denting(Controller):
             state.spec.joint(self._names[k]).springref = float(rest[k])
         self.rest = rest
         state.model.qpos_spring[self._places] = rest
-        return ()
 
     def end_tick(self, state: Running) -> None:
         """Tell how deep the greatest dent is."""

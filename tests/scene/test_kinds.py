@@ -1,0 +1,133 @@
+"""Kinds claim things by what is inferred of them, never by a name; what nobody can make is refused at once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.knowledge.situations import load
+from tests.scenes import run, scene
+
+from prolepsis.engine.simulation import simulate
+from prolepsis.engine.world import compile_world
+from prolepsis.log.files import read_log, write_log
+from prolepsis.log.happenings import Happening
+from prolepsis.log.log import Log
+from prolepsis.log.things import FREE, jointed
+from prolepsis.matter.kinds import known_kinds
+from prolepsis.programs import read_program
+from prolepsis.scene.compose import compose
+from prolepsis.scene.kind import Controller, Kind
+from prolepsis.scene.parts import Panel, Shard
+from prolepsis.scene.running import TICK, Running
+from prolepsis.terms.errors import KnowledgeError
+from prolepsis.terms.terms import parse_term
+
+FLOOR = ":floor a :Floor . "
+
+
+def simulated(turtle: str, plan: str, *kinds: Kind) -> Log:
+    """Return the log of a run with some kinds more."""
+    known = scene(turtle)
+    world = compile_world(replace(known, kinds=(*known.kinds, *kinds)))
+    return simulate(world, read_program(parse_term(plan), known))
+
+
+@pytest.mark.parametrize("name", ["fish_finger", "left_finger", "palm", "panel0", "piece1"])
+def test_a_name_decides_nothing(name: str) -> None:
+    log = run(FLOOR + f":{name} a :Block ; :z 0.5 .", duration=0.4)
+    heights = log.poses[:, log.index(name), 2]
+    assert log.things[log.index(name)].mount == FREE
+    assert heights[0] == pytest.approx(0.5)
+    assert heights[-1] == pytest.approx(0.05, abs=2e-3)
+
+
+def test_parts_are_typed() -> None:
+    made = scene(FLOOR + ":egg1 a :Egg ; :on :floor . :bowl1 a :PaperBowl ; :on :floor ; :x 0.3 .")
+    shards, panels = made.each(Shard), made.each(Panel)
+    assert {shard.whole for shard in shards} == {"egg1"}
+    assert {panel.whole for panel in panels} == {"bowl1"}
+    assert [made.thing(shard.name).emerges for shard in shards] == [True] * len(shards)
+    assert [made.thing(panel.name).mount for panel in panels] == [jointed("bowl1")] * len(panels)
+    surface = sum(shard.area for shard in shards)
+    assert surface == pytest.approx(7.0e-3, rel=0.1)  # of an ellipsoid of 57 mm by 44 mm
+
+
+@pytest.mark.parametrize(
+    ("turtle", "message"),
+    [
+        (":a a :Block , :Breakable ; :on :floor .", "a .Block. is Breakable, but does not break here; what does"),
+        (":t a :Table ; :hasPart :b . :b a :Egg .", "t .Table. is Breakable, but does not break here"),
+        (":a a :Block ; :breakingForce 30.0 ; :on :floor .", "has a breakingForce, but does not break here"),
+        (
+            ':a a :Block ; :colour "red" ; :on :floor .',
+            "colour 'red'; allowed: red, green, blue and opacity, each from 0",
+        ),
+        (':a a :Block ; :colour "1 0 2" ; :on :floor .', "colour '1 0 2'; allowed"),
+    ],
+)
+def test_what_cannot_be_is_refused_where_it_is_composed(turtle: str, message: str) -> None:
+    with pytest.raises(KnowledgeError, match=message):
+        scene(FLOOR + turtle)
+
+
+class Claiming(Kind):
+    """A kind that claims what another one does."""
+
+    claims = "Egg"
+
+
+def test_what_two_kinds_claim_is_refused(tmp_path: Path) -> None:
+    known = load(tmp_path, FLOOR + ":egg1 a :Egg ; :on :floor .")
+    with pytest.raises(KnowledgeError, match="egg1 .Egg. is each of Egg, Shelled; allowed: one of them"):
+        compose(known, (*known_kinds(), Claiming()))
+
+
+class Ageing(Kind):
+    """A kind whose particles age, and which tells when they are a twentieth of a second old."""
+
+    order = 90
+
+    def start(self, state: Running) -> Sequence[Controller]:
+        return [Aging()]
+
+
+class Aging(Controller):
+    """The controller of all ages."""
+
+    def bind(self, state: Running) -> None:
+        assert state.particles is not None
+        state.particles.columns.setdefault("age", np.zeros(len(state.particles.mass)))
+
+    def end_tick(self, state: Running) -> None:
+        assert state.particles is not None
+        state.particles.columns["age"] += TICK
+        if abs(state.particles.columns["age"][0] - 0.05) < TICK / 2:
+            liquid = int(state.particles.stuff[0])
+            state.report(Happening(type="birthday", things={"liquid": liquid}, numbers={"age": 0.05}))
+
+
+def test_a_kind_may_add_columns_to_particles_and_happenings(tmp_path: Path) -> None:
+    water = ":liq1 a :Water ; :on :floor ; :volume 20.0e-6 ."
+    log = simulated(FLOOR + water, "wait(0.1)", Ageing())
+    write_log(log, tmp_path / "log")
+    for each in (log, read_log(tmp_path / "log")):
+        ages = each.particles.columns["age"]
+        assert ages.shape == each.particles.holder.shape
+        assert ages[:, -1] == pytest.approx(each.particles.tick * TICK, rel=1e-5)
+        (birthday,) = each.happenings.values()
+        assert (birthday.tick.tolist(), birthday.things["liquid"].tolist()) == ([49], [log.index("liq1")])
+        assert birthday.numbers["age"].tolist() == [0.05]
+
+
+def test_what_has_particles_of_its_own_is_seen_where_it_is() -> None:
+    log = run(FLOOR + ":egg1 a :Egg ; :z 0.5 .", duration=0.1)
+    egg, seen = log.index("egg1"), log.particles
+    middle = np.average(seen.position, axis=1, weights=seen.mass)
+    assert (seen.holder == egg).all()
+    away = middle - log.poses[seen.tick, egg, :3]
+    assert np.abs(away - away[0]).max() < 1e-5
+    assert middle[-1, 2] < middle[0, 2] - 0.03
