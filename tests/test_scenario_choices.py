@@ -1,4 +1,4 @@
-"""What a scenario chooses - drawn strengths, what is logged - reaches the simulation and comes back from a folder."""
+"""What a scenario chooses - whether to draw, what is logged - reaches the simulation and comes back from a folder."""
 
 from __future__ import annotations
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, cast
 
@@ -54,6 +54,8 @@ class Projection:
     """Which fluents held and which events occurred."""
     world: str
     """The world file (MJCF), which the plain MuJoCo viewer opens."""
+    drawn: Mapping[str, float | str] = field(default_factory=dict[str, "float | str"])
+    """What was drawn before the run, ``{"eggshell1.breakingForce": 29.3}``; as settings it gives the same run again."""
 
     def ask(self, goal: str, limit: int | None = None) -> list[dict[str, Value]]:
         """Return the answers to a Prolog goal: ``[]`` means no, ``[{}]`` means yes. See ``Timeline.ask``."""
@@ -78,7 +80,8 @@ class Projection:
         timeline = read_timeline_files(path)
         log = read_log_files(path)
         try:
-            scenario = _scenario(read_json(path / SCENARIO), path)
+            row = read_json(path / SCENARIO)
+            scenario, drawn = _scenario(row, path), _drawn(row)
             world = read_text(path / WORLD)
         except FileNotFoundError as error:
             raise LogError(f"{path}: holds no whole projection (it has no {Path(str(error.filename)).name})") from None
@@ -86,7 +89,7 @@ class Projection:
         except (AttributeError, KeyError, TypeError, ValueError, InputError) as error:
             raise LogError(f"{path}: its scenario is malformed: {brief(error, 200)}") from None
         scene = Scene(things=log.things, domain=timeline.domain, gravity=log.gravity)
-        return cls(scenario=scenario, scene=scene, log=log, timeline=timeline, world=world)
+        return cls(scenario=scenario, scene=scene, log=log, timeline=timeline, world=world, drawn=drawn)
 
     def write(self, path: Path) -> None:
         """Write everything into an existing folder, unsealed."""
@@ -103,7 +106,7 @@ class Projection:
         if own is not None:
             scenario = replace(scenario, robot=replace(own, file=names[-1][0]))
         situation = [name for name, _ in names[: len(scenario.situation)]]
-        write_json(path / SCENARIO, _scenario_row(scenario, situation))
+        write_json(path / SCENARIO, {**_scenario_row(scenario, situation), "drawn": dict(self.drawn)})
 
 
 def project(
@@ -120,7 +123,8 @@ def project(
         scenario: A scenario, or its TOML file.
         out: Folder to save the projection in. If something that is not ours comes into it meanwhile, the projection is
             saved beside it (``out-2``), and a ``Note`` says so.
-        settings: Values by name, of parameters (``Force``) and of the knowledge base (``eggshell3.friction``).
+        settings: Values by name, of parameters (``Force``), of the knowledge base (``eggshell3.friction``), and of
+            ``seed``, ``draw`` and ``particles``.
         progress: Called from time to time with what is being done.
         parameters: More settings of parameters, ``Force=25`` or ``force="force7"``.
 
@@ -179,7 +183,9 @@ def project_into(
     )
     tell("recognizing")
     timeline = recognize(log, domain=scene.domain)
-    result = Projection(scenario=read, scene=scene, log=log, timeline=timeline, world=world.xml())
+    result = Projection(
+        scenario=read, scene=scene, log=log, timeline=timeline, world=world.xml(), drawn=knowledge.drawn
+    )
     if out is None:
         return result, None
     tell("saving")
@@ -246,6 +252,13 @@ def _scenario(row: dict[str, Any], path: Path) -> Scenario:
         particles=row.get("particles", DEFAULT_PARTICLES),
         monitors={name: tuple(chosen) for name, chosen in row.get("monitors", {}).items()},
     )
+
+
+def _drawn(row: dict[str, Any]) -> dict[str, float | str]:
+    drawn: Mapping[str, Any] = row.get("drawn", {})
+    if not all(isinstance(value, str | int | float) for value in drawn.values()):
+        raise ScenarioError(f"{SCENARIO}: what was drawn is not numbers or texts by name")
+    return dict(drawn)
 
 
 def _own_robot(table: dict[str, Any]) -> OwnRobot:

@@ -459,17 +459,21 @@ def test_the_folder_itself_is_read(folder: Path) -> None:
     assert read_log(folder).tick_count == egg_drop_log().tick_count
 
 
-@pytest.mark.parametrize("name", ["../../etc/passwd", "/etc/passwd", "", 7, None, ["a.ttl"]])
-def test_a_scenario_that_leads_out_of_its_folder_is_refused(folder: Path, name: Any) -> None:
+@pytest.mark.parametrize(
+    "wrong",
+    [{"situation": [name]} for name in ("../../etc/passwd", "/etc/passwd", "", 7, None, ["a.ttl"])]
+    + [{"drawn": drawn} for drawn in (7, ["egg1.mass"], {"egg1.mass": None}, {"egg1.mass": [0.06]})],
+)
+def test_a_scenario_that_leads_out_of_its_folder_or_is_none_is_refused(folder: Path, wrong: dict[str, Any]) -> None:
     row: dict[str, Any] = {
         "name": "a.toml",
-        "situation": [name],
+        "situation": ["a.ttl"],
         "plan": "wait(1)",
         "parameters": {},
         "knowledge": {},
         "robot": None,
     }
-    (folder / "scenario.json").write_text(json.dumps({**row, "duration": 1.0, "seed": 0}))
+    (folder / "scenario.json").write_text(json.dumps({**row, "duration": 1.0, "seed": 0, **wrong}))
     (folder / "world.xml").write_text("<mujoco/>")
     seal_with(folder, "scenario.json", "world.xml")
     with pytest.raises(LogError, match="its scenario is malformed"):

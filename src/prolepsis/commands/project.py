@@ -22,7 +22,8 @@ def add_to(commands: Any) -> None:
         action="append",
         default=[],
         metavar="NAME=VALUE",
-        help="value of a parameter (any case) or, as individual.property, of the knowledge base; may be repeated",
+        help="value of a parameter (any case), of seed, draw or particles, or of what is known (individual.property); "
+        "may be repeated",
     )
     parser.add_argument("--out", metavar="DIR", help="folder to save in; one that prolepsis wrote is replaced")
     add_progress(parser)

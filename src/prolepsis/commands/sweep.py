@@ -45,7 +45,7 @@ def add_to(commands: Any) -> None:
         action="append",
         required=True,
         metavar="NAME=V1,V2,...",
-        help="values of a parameter, a knowledge value, particles or seed; with several --over, every combination",
+        help="values of a parameter, a knowledge value, particles, seed or draw; several --over: every combination",
     )
     parser.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE", help="value that is the same in all"

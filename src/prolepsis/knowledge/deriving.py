@@ -46,7 +46,7 @@ def _of_its_wall(base: KnowledgeBase, name: str, property_name: str) -> Known | 
     known = base.find(walls[0], property_name) if len(walls) == 1 else None
     if known is None:
         return None
-    return replace(known, origin="derived", source=f"that of its wall {walls[0]} ({known.source})")
+    return replace(known, origin="derived", source=f"that of its wall {walls[0]} ({known.origin}: {known.source})")
 
 
 def _mass(base: KnowledgeBase, name: str) -> Known | None:

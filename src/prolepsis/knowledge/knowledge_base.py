@@ -9,6 +9,7 @@ from pathlib import Path
 from prolepsis.knowledge.declarations import read_vocabulary
 from prolepsis.knowledge.deriving import derive, masses_of
 from prolepsis.knowledge.describing import describe
+from prolepsis.knowledge.drawing import draw
 from prolepsis.knowledge.reasoning import Types, infer_types
 from prolepsis.knowledge.situation import INVERSES, Situation, Statement, read_situation
 from prolepsis.knowledge.spelling import refuse_unknown_names
@@ -23,7 +24,7 @@ from prolepsis.terms.errors import KnowledgeError, UnknownNameError, brief
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class KnowledgeBase:
-    """What is known before anything moves. It never changes; ``with_values`` returns another one."""
+    """What is known before anything moves. It never changes; ``with_values`` and ``with_draws`` return others."""
 
     vocabulary: Vocabulary
     """Classes and properties."""
@@ -33,7 +34,7 @@ class KnowledgeBase:
     """Inferred classes."""
     documents: tuple[Document, ...]
     """The Turtle files."""
-    overrides: Mapping[tuple[str, str], float | str]
+    overrides: Mapping[tuple[str, str], Known]
     """(individual, property) to a value that replaces whatever else is known."""
 
     @classmethod
@@ -133,7 +134,7 @@ class KnowledgeBase:
         return tuple(sorted(rows))
 
     def value(self, name: str, property_name: str) -> Known:
-        """Return the value of a property: overridden, asserted, derived, or the most specific class default.
+        """Return the value of a property: overridden or drawn, asserted, derived, or the most specific class default.
 
         Raises:
             UnknownNameError: If there is no such individual or property, or nothing is known of it.
@@ -180,7 +181,7 @@ class KnowledgeBase:
             UnknownNameError: If an individual or property does not exist.
             KnowledgeError: If a value is wrong.
         """
-        overrides = dict(self.overrides)
+        overrides: dict[tuple[str, str], Known] = {}
         for key, value in values.items():
             name, dot, property_name = key.rpartition(".")
             if not dot:
@@ -194,9 +195,39 @@ class KnowledgeBase:
             read = read_value(entry, str(value).lower() if isinstance(value, bool) else value, where=key)
             if entry.kind == "relation":
                 self._require(str(read), where=key)
-            overrides[name, property_name] = read
+            overrides[name, property_name] = Known(value=read, unit=entry.si_unit, origin="override", source="override")
+        return self._with(overrides)
+
+    def with_draws(self, seed: int) -> KnowledgeBase:
+        """Return a knowledge base in which every quantity that has a deviation is drawn, as ``drawing`` tells.
+
+        Raises:
+            KnowledgeError: If what follows from a draw cannot be.
+        """
+        drawn = draw(self, seed)
+        try:
+            return self._with(drawn) if drawn else self
+        except KnowledgeError as error:
+            raise KnowledgeError(f"what seed {seed} draws cannot be: {error}") from error
+
+    @property
+    def drawn(self) -> dict[str, float | str]:
+        """What was drawn, ``{"eggshell1.breakingForce": 29.3}``: given to ``with_values``, it is the same to the last
+        bit."""
+        found: dict[str, float | str] = {}
+        for (name, property_name), known in self.overrides.items():
+            if known.origin == "drawn" and isinstance(known.value, float):
+                plain = self.vocabulary.properties[property_name].unit == known.unit
+                found[f"{name}.{property_name}"] = known.value if plain else f"{known.value!r} {known.unit}"
+        return found
+
+    def _with(self, more: Mapping[tuple[str, str], Known]) -> KnowledgeBase:
+        """Return a knowledge base with more overrides, its types inferred anew."""
+        overrides = {**self.overrides, **more}
         statements = [s for s in self.situation.statements if (s.subject, s.property) not in overrides]
-        statements += [Statement(subject=n, property=p, value=v, where="override") for (n, p), v in overrides.items()]
+        statements += [
+            Statement(subject=n, property=p, value=k.value, where=k.origin) for (n, p), k in overrides.items()
+        ]
         situation = replace(self.situation, statements=tuple(statements))
         types = infer_types(self.documents, self.vocabulary, situation, check=True)
         changed = replace(self, situation=situation, types=types, overrides=overrides)
@@ -233,9 +264,10 @@ class KnowledgeBase:
     def find(self, name: str, property_name: str) -> Known | None:
         """Return the value of a property, or None if nothing is known of it."""
         entry = self.vocabulary.properties[property_name]
+        if (name, property_name) in self.overrides:
+            return self.overrides[name, property_name]
         for s in self.situation.said.get((name, property_name), ())[:1]:
-            origin = "override" if (name, property_name) in self.overrides else "asserted"
-            return Known(value=s.value, unit=entry.si_unit, origin=origin, source=s.where)
+            return Known(value=s.value, unit=entry.si_unit, origin="asserted", source=s.where)
         return derive(self, name, property_name) or self.default(name, property_name)
 
     def subjects(self, relation: str, name: str) -> tuple[str, ...]:

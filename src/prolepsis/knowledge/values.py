@@ -1,4 +1,4 @@
-"""Values of individuals, each with its origin: stated, derived, overridden, or the most specific class default."""
+"""Values of individuals, each with its origin: asserted, derived, overridden, drawn, or the default of its class."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ class Known:
     unit: str
     """SI unit, ``1`` for a pure number and empty for what is no quantity."""
     origin: str
-    """``asserted`` (the situation says so), ``class default``, ``derived`` (from other values) or ``override``."""
+    """``asserted`` (the situation says so), ``class default``, ``derived`` (from other values), ``override``, or
+    ``drawn`` (round a class default)."""
     source: str
     """The file, the default's source and class, or the formula."""
     certainty: str = ""

@@ -65,7 +65,7 @@ class Scenario:
     seed: int = 0
     """Seed of every random draw."""
     draw: bool = False
-    """Whether uncertain strengths are drawn from their distributions; if not, each is its mean."""
+    """Whether quantities with a stated deviation are drawn before the run; if not, each is its mean."""
     particles: int = DEFAULT_PARTICLES
     """Number of particles of the largest liquid; those of the others are as large."""
     monitors: Mapping[str, tuple[str, ...]] = field(default_factory=dict[str, "tuple[str, ...]"])
@@ -140,18 +140,19 @@ class Scenario:
         return scenario.with_settings(settings or {})
 
     def with_settings(self, settings: Mapping[str, str | float]) -> Scenario:
-        """Return the scenario with other values of parameters, of the knowledge base, of ``particles`` or ``seed``.
+        """Return the scenario with other values of parameters, of the knowledge base, of particles, seed or draw.
 
         Raises:
             UnknownNameError: If a setting names no parameter.
-            ScenarioError: If a value has the wrong unit.
+            ScenarioError: If a value has the wrong unit, or is none.
         """
         if not all(map(_is_setting, settings.items())):
             raise ScenarioError(
                 f"{self.path}: settings are numbers or texts by name, as {{'Force': 5.0}}, not {brief(settings)}"
             )
         parameters, knowledge = dict(self.parameters), dict(self.knowledge)
-        numbers = {"particles": self.particles, "seed": self.seed}
+        keys = {"particles": _whole, "seed": _whole, "draw": _truth}
+        chosen: dict[str, int] = {}
         for name, value in settings.items():
             if "." in name:
                 knowledge[name] = _plain(value)
@@ -159,19 +160,20 @@ class Scenario:
             match = [known for known in parameters if known == name] or [
                 known for known in parameters if known.lower() == name.lower()
             ]
-            if not match and name in numbers:
-                numbers[name] = _whole(value, f"{self.path}: {name} = {brief(value)}")
+            if not match and name in keys:
+                chosen[name] = keys[name](value, f"{self.path}: {name} = {brief(value)}")
                 continue
             if len(match) != 1:
                 raise UnknownNameError.of("parameter", name, parameters, where=str(self.path))
             parameters[match[0]] = _setting(value, parameters[match[0]], f"{self.path}: {match[0]} = {brief(value)}")
-        return replace(self, parameters=parameters, knowledge=knowledge, **numbers)
+        return replace(self, parameters=parameters, knowledge=knowledge, **chosen)
 
     def knowledge_base(self) -> KnowledgeBase:
-        """Return the knowledge base of the situation, with this scenario's values.
+        """Return the knowledge base of the situation, with this scenario's values, and what its seed draws.
 
         Raises:
             UnknownNameError: If a parameter or a knowledge value names nothing that is there.
+            KnowledgeError: If a value, or what is drawn, is wrong.
         """
         base = KnowledgeBase.load(*self._robot_sources(), *self.situation, most=MOST_INDIVIDUALS)
         for name, parameter in self.parameters.items():
@@ -179,7 +181,8 @@ class Scenario:
                 raise UnknownNameError.of(
                     "individual", parameter.value, base.individuals, f"{self.path}: parameter {name}"
                 )
-        return base.with_values(self.knowledge) if self.knowledge else base
+        base = base.with_values(self.knowledge) if self.knowledge else base
+        return base.with_draws(self.seed) if self.draw else base
 
     def _robot_sources(self) -> list[Path | Document]:
         """Return what says that the robot is there."""
@@ -273,6 +276,13 @@ def _whole(value: str | float, where: str) -> int:
         return int(value) if isinstance(value, str) and value.strip().isdigit() else _whole_float(value)
     except ValueError:
         raise ScenarioError(f"{where}: must be a whole number") from None
+
+
+def _truth(value: str | float, where: str) -> bool:
+    text = str(value).strip().lower()
+    if text not in ("true", "false"):
+        raise ScenarioError(f"{where}: must be true or false")
+    return text == "true"
 
 
 def _whole_float(value: str | float) -> int:
