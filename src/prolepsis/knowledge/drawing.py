@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -11,6 +10,7 @@ import numpy as np
 
 from prolepsis.knowledge.values import Known
 from prolepsis.knowledge.vocabulary import Property
+from prolepsis.system.seeds import child_of
 
 if TYPE_CHECKING:
     from prolepsis.knowledge.knowledge_base import KnowledgeBase
@@ -37,7 +37,7 @@ def draw(base: KnowledgeBase, seed: int) -> dict[tuple[str, str], Known]:
                 continue
             limits = [each for entry in entries for each in entry.limits if each.name == property_name]
             value = _drawn(
-                known, [base.vocabulary.properties[property_name], *limits], _child(seed, name, property_name)
+                known, [base.vocabulary.properties[property_name], *limits], child_of(seed, f"{name}.{property_name}")
             )
             found[name, property_name] = replace(
                 known,
@@ -48,13 +48,6 @@ def draw(base: KnowledgeBase, seed: int) -> dict[tuple[str, str], Known]:
                 deviation=0.0,
             )
     return found
-
-
-def _child(seed: int, name: str, property_name: str) -> np.random.Generator:
-    """Return the generator of one quantity: a child of the seed by a hash of its name that is the same everywhere."""
-    digest = hashlib.sha256(f"{name}.{property_name}".encode()).digest()
-    key = tuple(int(word) for word in np.frombuffer(digest, "<u4"))
-    return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=key))
 
 
 def _drawn(known: Known, bounds: list[Property], rng: np.random.Generator) -> float:

@@ -125,9 +125,6 @@ def _membrane(kb: KnowledgeBase, stuff: Thing) -> Membraned:
 
 def _part(kb: KnowledgeBase, name: str, whole: Thing, roles: frozenset[str]) -> Thing:
     quantities = {p: float(k.value) for p, k in kb.quantities(name).items() if isinstance(k.value, float)}
-    deviations = {
-        f"{p}Deviation": float(k.deviation) for p, k in kb.quantities(name).items() if getattr(k, "deviation", None)
-    }
     return Thing(
         name=name,
         kind=kb.kind(name),
@@ -137,7 +134,7 @@ def _part(kb: KnowledgeBase, name: str, whole: Thing, roles: frozenset[str]) -> 
         whole=whole.name,
         mount=WITHIN,
         roles=roles - {"Breakable", "Container"},
-        quantities={**quantities, **deviations},
+        quantities=quantities,
     )
 
 
