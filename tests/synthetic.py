@@ -90,7 +90,9 @@ def egg_drop_log() -> Log:
             tick=np.array([LAND]), thing=np.array([1]), a=np.array([4]), b=np.array([5]), force=np.array([38.5])
         ).happenings(),
         channels={"egg1.load": np.where(np.arange(TICKS) == LAND, 1.0, 0.1)},
-        actions=(Action(term=Term("wait", (0.8,)), start=0, end=TICKS, evidence={"asked": 0.8}),),
+        actions=(
+            Action(term=Term("wait", (0.8,)), arguments={"duration": 0.8}, start=0, end=TICKS, evidence={"asked": 0.8}),
+        ),
     )
 
 

@@ -74,7 +74,8 @@ def test_an_action_is_one_generator() -> None:
     log = run(EGG_IN_HAND, "shake(hand1, 2)")
     heights = log.poses[:, log.index("hand1/palm"), 2]
     assert heights.max() - heights[0] == pytest.approx(0.02, abs=2e-3)
-    assert [str(action.term) for action in log.actions] == ["shake(hand1,2)"]
+    (action,) = log.actions
+    assert (str(action.term), action.arguments) == ("shake(hand1,2)", {"hand": "hand1", "times": 2})
 
 
 COOLED = """

@@ -228,7 +228,12 @@ def wiped(*, touching: bool = True, drops: int = 0) -> Timeline:
     for p in range(len(points)):
         holders[30 + p * 40 // len(points) :, p] = 1
     holders[90:, :drops] = -1.0
-    wipe = Action(term=Term("wipe", ("hand1", "sponge1", "table1", 0.2)), start=40, end=150)
+    wipe = Action(
+        term=Term("wipe", ("hand1", "sponge1", "table1", 0.2)),
+        arguments={"hand": "hand1", "object": "sponge1", "surface": "table1"},
+        start=40,
+        end=150,
+    )
     log = wet([table(), sponge], {"liq1": points}, ticks=TICKS, holders={"liq1": holders}, actions=(wipe,))
     if touching:
         draft = Draft(TICKS, log.things)

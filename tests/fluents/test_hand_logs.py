@@ -32,6 +32,10 @@ def grasp_draft() -> Draft:
     return draft
 
 
+def action(name: str, *, start: int, end: int, **arguments: str | float) -> Action:
+    return Action(term=Term(name, tuple(arguments.values())), arguments=arguments, start=start, end=end)
+
+
 def squeeze(draft: Draft, start: int, end: int, force: float = 10.0) -> None:
     draft.press("rightGripper/left_finger", "egg1", start, end, (0.0, -force, 0.5), (0.0, -1.0, 0.0))
     draft.press("rightGripper/right_finger", "egg1", start, end, (0.0, force, 0.5), (0.0, 1.0, 0.0))
@@ -42,8 +46,8 @@ def test_closing_carries_the_commanded_level_of_the_grasp() -> None:
     state = np.zeros(1000)
     state[100:300], state[800:900] = -1.0, 1.0
     force = np.linspace(0.0, 20.0, 1000)
-    grasp = Action(term=Term("grasp", ("rightGripper", "egg1", "force7")), start=50, end=320)
-    release = Action(term=Term("release", ("rightGripper",)), start=800, end=900)
+    grasp = action("grasp", hand="rightGripper", object="egg1", force="force7", start=50, end=320)
+    release = action("release", hand="rightGripper", start=800, end=900)
     channels = {"rightGripper.gripper": state, "rightGripper.pad_force": force}
     timeline = recognize(draft.log(channels=channels, actions=(grasp, release)))
     assert times(timeline, "closingGripper(rightGripper)") == [(0.1, 0.3)]
@@ -59,8 +63,8 @@ def test_closing_carries_the_commanded_level_of_the_grasp() -> None:
 @pytest.mark.parametrize(("argument", "level"), [(20, 20.0), (7.5, 7.5), ("force12", "force12")])
 def test_a_level_may_be_a_number(argument: float | str, level: float | str) -> None:
     draft = grasp_draft()
-    close = Action(term=Term("close", ("rightGripper", argument)), start=0, end=300)
-    other = Action(term=Term("grasp", ("leftGripper", "cup1", 3)), start=0, end=400)
+    close = action("close", hand="rightGripper", force=argument, start=0, end=300)
+    other = action("grasp", hand="leftGripper", object="cup1", force=3, start=0, end=400)
     state = np.where(np.arange(1000) < 250, -1.0, 0.0)
     timeline = recognize(draft.log(channels={"rightGripper.gripper": state}, actions=(other, close)))
     assert timeline.select(type="closingGripper")[0].evidence["level"] == level

@@ -22,7 +22,7 @@ from prolepsis.robots.commands import (
 )
 from prolepsis.scene.scene import Scene
 from prolepsis.terms.errors import InputError, PlanError, UnknownNameError
-from prolepsis.terms.terms import Term, parse_term
+from prolepsis.terms.terms import parse_term
 
 TWO_HANDS = EGG_IN_HAND + " :hand2 a :Gripper ; :x 0.5 ; :z 0.9 ."
 
@@ -96,7 +96,7 @@ def test_an_action_within_an_action_is_an_event_of_its_own(two_hands: Scene) -> 
         sense = yield (Note(evidence={"times": 2.0}),)
         return sense
 
-    behaviour = as_event(Term("twice", ("egg1",)), twice(hand.sense(0.0)), hand.sense(0.0))
+    behaviour = as_event("twice", {"egg": "egg1"}, twice(hand.sense(0.0)), hand.sense(0.0))
     said: list[Command] = list(next(behaviour))
     with pytest.raises(StopIteration):
         while True:
@@ -135,7 +135,7 @@ def test_what_fails_says_so_and_is_raised_for_what_it_is_part_of(two_hands: Scen
         yield (OpenGripper(hand="hand1", width=0.08, speed=0.1),)
         raise ActionFailedError("unreachable", "too far")
 
-    behaviour = as_event(Term("try", ("hand1",)), stuck(hand.sense(0.0)), hand.sense(0.0))
+    behaviour = as_event("try", {"hand": "hand1"}, stuck(hand.sense(0.0)), hand.sense(0.0))
     next(behaviour)
     behaviour.send(hand.sense(0.0))
     (end,) = behaviour.send(hand.sense(0.0))

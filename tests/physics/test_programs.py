@@ -79,6 +79,13 @@ def test_a_sequence_does_one_action_after_the_other(egg_in_hand: Scene) -> None:
     assert [(start, end) for _, start, end in rows] == [(0, 100), (100, rows[1][2]), (rows[1][2], rows[1][2] + 200)]
 
 
+def test_an_action_begins_with_its_arguments_by_name(egg_in_hand: Scene) -> None:
+    (begin,) = [c for _, c in carried_out("lift(hand1, 0.1)", egg_in_hand) if isinstance(c, Begin)]
+    assert str(begin.term) == "lift(hand1,0.1)"
+    # What is left out is there as it was used.
+    assert begin.arguments == {"hand": "hand1", "height": 0.1, "speed": 0.25, "acceleration": 1.0}
+
+
 def test_together_begins_at_once_and_ends_with_the_last(egg_in_hand: Scene) -> None:
     rows = actions_of(carried_out("together([wait(0.3), lift(hand1, 0.01), wait(0.1)])", egg_in_hand))
     assert {start for _, start, _ in rows} == {0}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -79,7 +80,7 @@ def simulate(
     recorder = Recorder()
     frames = Frames()
     channels = Channels(chosen_channels(world.scene, monitors))
-    running: dict[Term, list[int]] = {}
+    running: dict[Term, list[Action]] = {}
     actions: list[Action] = []
     behaviour = program.start(_sense(state, controls, 0.0))
     ended_at: int | None = None
@@ -144,8 +145,7 @@ def simulate(
         tick += 1
         state.tick = tick
 
-    cut = [(term, start) for term, starts in running.items() for start in starts]
-    actions += [Action(term=term, start=start, end=tick, outcome="cut") for term, start in cut]
+    actions += [replace(action, end=tick) for begun in running.values() for action in begun]
     poses, carriers = recorder.pose_columns()
     contacts, particles = recorder.contact_columns(TICK), frames.table(state)
     _refuse_passed(things, recorder, poses, contacts)
@@ -179,21 +179,15 @@ def _sense(state: State, controls: Controls, time: float) -> Sense:
     )
 
 
-def _note(command: Command, tick: int, running: dict[Term, list[int]], actions: list[Action]) -> None:
+def _note(command: Command, tick: int, running: dict[Term, list[Action]], actions: list[Action]) -> None:
     if isinstance(command, Begin):
+        begun = Action(term=command.term, arguments=dict(command.arguments), start=tick, end=tick + 1, outcome="cut")
         # The same action may run twice at once, as two waits that are done together.
-        running.setdefault(command.term, []).append(tick)
+        running.setdefault(command.term, []).append(begun)
     elif isinstance(command, End):
-        start = running[command.term].pop(0)
-        actions.append(
-            Action(
-                term=command.term,
-                start=start,
-                end=max(tick, start + 1),
-                outcome=command.outcome,
-                evidence=dict(command.evidence),
-            )
-        )
+        begun = running[command.term].pop(0)
+        evidence = dict(command.evidence)
+        actions.append(replace(begun, end=max(tick, begun.end), outcome=command.outcome, evidence=evidence))
 
 
 def _refuse(state: State, tick: int) -> None:

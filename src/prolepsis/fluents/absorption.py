@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from prolepsis.fluents.actions import argument_of
 from prolepsis.fluents.flowing import Passages, evidence_of, streams
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.particle_places import places
@@ -17,7 +16,7 @@ from prolepsis.log.log import FREE
 from prolepsis.log.timeline import Fact
 
 WIPE = "wipe"
-"""The action ``wipe(hand, sponge, surface, ...)``."""
+"""The action that strokes its ``object`` over its ``surface``."""
 
 
 @event("absorbing", "o1", "o2")
@@ -36,11 +35,11 @@ def dripping(observation: Observation) -> Iterator[Fact]:
 def wiping(observation: Observation) -> Iterator[Fact]:
     """A robot wipes o2 with o1, which touches it."""
     for done in observation.log.actions:
-        if done.term.functor != WIPE or len(done.term.args) < 3:
+        if done.term.functor != WIPE or not {"object", "surface"} <= done.arguments.keys():
             continue
-        names = argument_of(done.term.args[1]), argument_of(done.term.args[2])
+        names = str(done.arguments["object"]), str(done.arguments["surface"])
         start, end = done.start, max(done.end, done.start + 1)
-        if _touch(observation, str(names[0]), str(names[1]), start, end):
+        if _touch(observation, *names, start, end):
             evidence: dict[str, float | str] = {"outcome": done.outcome, **done.evidence}
             yield observation.fact("event", "wiping", names, (start, end), evidence)
 

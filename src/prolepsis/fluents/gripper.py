@@ -20,7 +20,7 @@ FINGER_WINDOW = 0.02
 STUTTER = 0.02
 """Pause of the fingers that is not noticed [s]."""
 FORCE_ACTIONS = ("grasp", "close")
-"""Actions whose last argument is the commanded force level."""
+"""Actions whose force is the commanded level."""
 
 
 @event("closingGripper", "g")
@@ -98,10 +98,10 @@ def commanded_level(observation: Observation, gripper: str, start: int, end: int
     """Return the force that the action running over the ticks commands of a gripper: a name, or a number [N]."""
     best: tuple[int, Argument] | None = None
     for action in observation.log.actions:
-        args = action.term.args
-        if action.term.functor not in FORCE_ACTIONS or len(args) < 2 or args[0] != gripper:
+        force = action.arguments.get("force")
+        if action.term.functor not in FORCE_ACTIONS or action.arguments.get("hand") != gripper or force is None:
             continue
         common = min(action.end, end) - max(action.start, start)
         if common > 0 and (best is None or common > best[0]):
-            best = common, argument_of(args[2] if action.term.functor == "grasp" and len(args) > 2 else args[1])
+            best = common, argument_of(force)
     return None if best is None else best[1]

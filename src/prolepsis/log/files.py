@@ -32,6 +32,7 @@ _OWN = "particle_columns.parquet"
 class _Action(BaseModel):
     model_config = _EXACTLY
     term: str
+    arguments: dict[str, str]
     start: int
     end: int
     outcome: str
@@ -224,6 +225,7 @@ def _plain_particles(particles: Particles) -> dict[str, Any]:
 def _plain_action(action: Action) -> dict[str, Any]:
     return {
         "term": format_value(action.term),
+        "arguments": {name: format_value(value) for name, value in action.arguments.items()},
         "start": int(action.start),
         "end": int(action.end),
         "outcome": action.outcome,
@@ -235,6 +237,7 @@ def _action(row: _Action) -> Action:
     term = parse_term(row.term, where=HEAD)
     return Action(
         term=term if isinstance(term, Term) else Term(str(term)),
+        arguments={name: parse_term(text, where=HEAD) for name, text in row.arguments.items()},
         start=row.start,
         end=row.end,
         outcome=row.outcome,

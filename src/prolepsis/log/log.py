@@ -15,7 +15,7 @@ import numpy.typing as npt
 from prolepsis.geometry.shape import FloatArray, IntArray, Triple
 from prolepsis.log.happenings import DETACHMENT, Happenings
 from prolepsis.log.things import Thing
-from prolepsis.terms.terms import Term
+from prolepsis.terms.terms import Term, Value
 
 FREE = -1
 """Holder of a particle that flows."""
@@ -122,7 +122,10 @@ class Action:
     """One action of the control program, from its start to its end."""
 
     term: Term
-    """The action with its bound arguments: ``grasp(hand1, egg1, force7)``."""
+    """The action as the plan says it, its variables bound: ``grasp(hand1, egg1, force7)``."""
+    arguments: Mapping[str, Value] = field(default_factory=dict[str, Value])
+    """Its arguments by the names that the action gives them (``hand``, ``object``, ``force``), as the plan says them;
+    what it leaves out, as it was used. Empty if a log does not tell."""
     start: int
     """First tick."""
     end: int

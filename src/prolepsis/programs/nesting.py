@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from prolepsis.log.things import Thing
@@ -14,13 +15,33 @@ LOST_TICKS = 20
 """What was held is dropped if the pads have not felt it for so many ticks at the end of an action."""
 
 
-def as_event(term: Term, behaviour: Behaviour, sense: Sense) -> Behaviour:
-    """Run an action between its beginning and its end, and note what the hands that it names feel meanwhile."""
+def as_event(
+    name: str,
+    arguments: Mapping[str, Any],
+    behaviour: Behaviour,
+    sense: Sense,
+    *,
+    said: tuple[Value, ...] | None = None,
+) -> Behaviour:
+    """Run an action between its beginning and its end, and note what the hands that it names feel meanwhile.
+
+    Args:
+        name: Name of the action.
+        arguments: All of its arguments by name, things and SI numbers, in the order of its parameters.
+        behaviour: What it does.
+        sense: What is sensed as it begins.
+        said: The first arguments, as they were said; all of them if it is None.
+    """
+    named = {each: _value(value) for each, value in arguments.items()}
+    if said is None:
+        said = tuple(named.values())
+    named.update(zip(named, said, strict=False))
+    term = Term(name, said)
     evidence: dict[str, float | str] = {}
-    hands = [name for name in sense.hands if name in term.args]
-    held = {name for name in hands if sense.hands[name].grip > 0 and sense.hands[name].pad_force > 0}
+    hands = [each for each in sense.hands if each in named.values()]
+    held = {each for each in hands if sense.hands[each].grip > 0 and sense.hands[each].pad_force > 0}
     lost = dict.fromkeys(hands, 0)
-    sense = yield (Begin(term=term),)
+    sense = yield (Begin(term=term, arguments=named),)
     first = True
     while True:
         try:
@@ -37,11 +58,11 @@ def as_event(term: Term, behaviour: Behaviour, sense: Sense) -> Behaviour:
             if isinstance(note, Note):
                 evidence |= note.evidence
         sense = yield made
-        for name in hands if not is_instant(made) else ():
-            hand = sense.hands[name]
+        for each in hands if not is_instant(made) else ():
+            hand = sense.hands[each]
             evidence["peak_pad_force"] = max(float(evidence.get("peak_pad_force", 0.0)), hand.pad_force)
-            lost[name] = lost[name] + 1 if hand.grip > 0 and hand.pad_force == 0 else 0
-    dropped = any(lost[name] >= LOST_TICKS for name in held)
+            lost[each] = lost[each] + 1 if hand.grip > 0 and hand.pad_force == 0 else 0
+    dropped = any(lost[each] >= LOST_TICKS for each in held)
     return (yield (End(term=term, outcome="dropped" if dropped else "done", evidence=evidence),))
 
 
@@ -50,9 +71,8 @@ def nested(name: str, scene: Scene, sense: Sense, **arguments: Any) -> Behaviour
     spec = ACTIONS[name]
     bound = {each.name: arguments.get(each.name, each.default) for each in spec.parameters}
     given = [k for k, each in enumerate(spec.parameters) if each.name in arguments]
-    shown = [bound[each.name] for each in spec.parameters[: given[-1] + 1]]
-    term = Term(name, tuple(_value(value) for value in shown))
-    return (yield from as_event(term, spec.behave(scene, sense, **bound), sense))
+    said = tuple(_value(value) for value in [*bound.values()][: given[-1] + 1])
+    return (yield from as_event(name, bound, spec.behave(scene, sense, **bound), sense, said=said))
 
 
 def _value(value: Any) -> Value:

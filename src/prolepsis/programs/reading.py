@@ -84,7 +84,7 @@ def _read(plan: Value, scene: Scene) -> Maker:
         spec.check(scene, **arguments)
     refuse_fixed(spec.parameters, arguments, plan, scene)
 
-    return lambda sense: as_event(plan, spec.behave(scene, sense, **arguments), sense)
+    return lambda sense: as_event(spec.name, arguments, spec.behave(scene, sense, **arguments), sense, said=plan.args)
 
 
 def _read_combinator(plan: Term, scene: Scene) -> Maker:

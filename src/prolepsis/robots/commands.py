@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from prolepsis.geometry.shape import IDENTITY, FloatArray, Quaternion, Triple
-from prolepsis.terms.terms import Term
+from prolepsis.terms.terms import Term, Value
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -82,6 +82,8 @@ class Begin:
     """An action begins."""
 
     term: Term
+    arguments: Mapping[str, Value] = field(default_factory=dict[str, Value])
+    """By the names of its parameters."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -23,7 +23,6 @@ from prolepsis.robots.hand import rotate
 from prolepsis.robots.turned import inverse, product, turn_of, turned
 from prolepsis.scene.scene import Scene, reference_of, robot_of_gripper
 from prolepsis.terms.errors import PlanError
-from prolepsis.terms.terms import Term
 
 LEVEL = 0.05
 """The hand's forward and left axes may rise by this much and still count as level [1]."""
@@ -105,12 +104,12 @@ def pour(
     tilted = np.array([level @ rolled(-side * a) @ lip for a in angles])
     way = goal - tilted + lifts[:, None] * (0.0, 0.0, 1.0) - here
     approach = travel_over(hand, sense, way[0], APPROACH_ACCELERATION, APPROACH_SPEED)
-    sense = yield from as_event(Term("bring", (hand.name, target.name)), approach, sense)
+    sense = yield from as_event("bring", {"hand": hand, "target": target}, approach, sense)
     # The way is seen from where the hand is, the commands from where they were: the servo may lag by a little.
     grip = product(inverse(ahead), state.orientation)
     turns = [turn_of(reference, product(turned(ahead, (0.0, 0.0, -side * float(a) - lean)), grip)) for a in angles]
     turning = follow(hand, sense, np.asarray(state.offset) + way, np.unwrap(turns, axis=0))
-    sense = yield from as_event(Term("tilt", (hand.name, round(-side * angle, 3))), turning, sense)
+    sense = yield from as_event("tilt", {"hand": hand, "angle": round(-side * angle, 3)}, turning, sense)
     return (yield from stay(duration, sense))
 
 
