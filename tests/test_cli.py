@@ -95,6 +95,9 @@ def test_ask_answers_by_chronicles_of_a_file(saved: Path, tmp_path: Path, capfd:
     rules.write_text("chronicle(coming_down(X), T) :- occurs(falling(X), T).\n")
     assert main(["ask", str(saved), "occurs(coming_down(X), _)", "--chronicles", str(rules)]) == 0
     assert "X = egg1\n" in capfd.readouterr().out
+    rules.write_text("chronicle(splitting(X), T) :- occurs(falling(X), T).\n")
+    assert main(["ask", str(saved), "true", "--chronicles", str(rules)]) == 2
+    assert "splitting is known without this file" in capfd.readouterr().err
     assert main(["ask", str(saved), "occurs(coming_down(X), _)", "--chronicles", str(tmp_path / "no.pl")]) == 2
     assert "no.pl: cannot read the file: No such file" in capfd.readouterr().err
 

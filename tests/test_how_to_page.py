@@ -20,8 +20,9 @@ from tests.scenes import EGG_IN_HAND, run, scene
 import prolepsis
 from prolepsis.engine.simulation import simulate
 from prolepsis.engine.world import compile_world
-from prolepsis.fluents import recognize
+from prolepsis.fluents import fact_types, recognize
 from prolepsis.knowledge import KnowledgeBase
+from prolepsis.log.fact_types import ACTION_EVENTS
 from prolepsis.matter.kinds import known_kinds
 from prolepsis.programs import ACTIONS, read_program
 from prolepsis.projection import project
@@ -39,10 +40,12 @@ def example(section: str, language: str) -> str:
 
 @pytest.fixture(autouse=True)
 def registries_as_they_were() -> Iterator[None]:
-    actions = dict(ACTIONS)
+    registries: list[dict[str, Any]] = [ACTIONS, ACTION_EVENTS]
+    before = [dict(each) for each in registries]
     yield
-    ACTIONS.clear()
-    ACTIONS.update(actions)
+    for registry, known in zip(registries, before, strict=True):
+        registry.clear()
+        registry.update(known)
 
 
 def defined(section: str) -> dict[str, Any]:
@@ -71,6 +74,7 @@ def test_a_robot_is_a_model_and_a_table(tmp_path: Path) -> None:
 
 def test_an_action_is_one_generator() -> None:
     defined("An action")
+    assert fact_types()["shaking"].arguments == ("hand", "times")
     log = run(EGG_IN_HAND, "shake(hand1, 2)")
     heights = log.poses[:, log.index("hand1/palm"), 2]
     assert heights.max() - heights[0] == pytest.approx(0.02, abs=2e-3)

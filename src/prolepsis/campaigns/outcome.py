@@ -8,11 +8,16 @@ from typing import Literal
 import numpy as np
 
 from prolepsis.geometry.shape import FloatArray
+from prolepsis.log.fact_types import arguments_of
 from prolepsis.log.log import Log
 from prolepsis.log.timeline import Fact, Timeline
+from prolepsis.programs import ACTIONS
 from prolepsis.terms.errors import InputError
 
 GraspOutcome = Literal["slip", "hold", "crush"]
+GRASP = ACTIONS["grasp"]
+HOLDS = (ACTIONS["hold"], ACTIONS["lift"])
+"""What a hand does with what it has grasped."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -41,12 +46,12 @@ def judge_grasp(timeline: Timeline, log: Log) -> Grasp:
     Raises:
         InputError: If nothing was grasped.
     """
-    grasps = timeline.select(type="grasping", kind="event")
-    if not grasps or len(grasps[0].args) < 2:
+    grasp = next(iter(timeline.select(type=GRASP.event, kind="event")), None)
+    said = {} if grasp is None else arguments_of(grasp)
+    if grasp is None or not {"hand", "object"} <= said.keys():
         raise InputError("the plan grasps nothing, so there is no outcome of a grasp (give a goal to ask instead)")
-    grasp = grasps[0]
-    hand, thing = str(grasp.args[0]), str(grasp.args[1])
-    level = grasp.args[2] if len(grasp.args) > 2 else grasp.evidence.get("level")
+    hand, thing = str(said["hand"]), str(said["object"])
+    level = said.get("force", grasp.evidence.get("level"))
     end = _end_of_hold(timeline, grasp, hand)
     return Grasp(
         hand=hand,
@@ -60,7 +65,7 @@ def judge_grasp(timeline: Timeline, log: Log) -> Grasp:
 
 
 def _outcome(timeline: Timeline, grasp: Fact, hand: str, thing: str, end: float) -> GraspOutcome:
-    if any(_crushed(timeline, grasp, hand, fact) for fact in _of(timeline, "breaking", thing)):
+    if any(_crushed(timeline, grasp, hand, thing, fact) for fact in _of(timeline, "breaking", thing)):
         return "crush"
     held = any(
         set(fact.args) == {hand, thing} and fact.start < end <= fact.end + timeline.dt / 2
@@ -70,13 +75,13 @@ def _outcome(timeline: Timeline, grasp: Fact, hand: str, thing: str, end: float)
     return "hold" if held and not broken else "slip"
 
 
-def _crushed(timeline: Timeline, grasp: Fact, hand: str, breaking: Fact) -> bool:
+def _crushed(timeline: Timeline, grasp: Fact, hand: str, thing: str, breaking: Fact) -> bool:
     """Return whether the object broke in the hand: touched by it, and not after it had begun to fall."""
     if breaking.start < grasp.start:
         return False
-    fallen = any(grasp.start < fall.start < breaking.start for fall in _of(timeline, "falling", str(breaking.args[0])))
+    fallen = any(grasp.start < fall.start < breaking.start for fall in _of(timeline, "falling", thing))
     touched = any(
-        set(fact.args) == {hand, breaking.args[0]}
+        set(fact.args) == {hand, thing}
         and fact.start <= breaking.start + timeline.dt / 2
         # Contact may be lost in the very tick in which the shell gives way.
         and breaking.start <= fact.end + timeline.dt / 2
@@ -93,9 +98,9 @@ def _end_of_hold(timeline: Timeline, grasp: Fact, hand: str) -> float:
     """Return when the hand stopped holding [s]: the end of its last holding or lifting, else of the run."""
     ends = [
         fact.end
-        for type in ("holding", "lifting")
-        for fact in timeline.select(type=type, kind="event")
-        if fact.args[:1] == (hand,) and fact.start >= grasp.start
+        for action in HOLDS
+        for fact in timeline.select(type=action.event, kind="event")
+        if arguments_of(fact).get("hand") == hand and fact.start >= grasp.start
     ]
     return max(ends, default=timeline.duration)
 

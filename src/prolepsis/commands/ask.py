@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+from importlib import import_module
 from typing import Any
 
 from prolepsis.commands.output import add_command, bindings, json_line, plain, warn_unchecked
@@ -47,6 +48,9 @@ def run(given: argparse.Namespace) -> int:
     from prolepsis.log.saved import read_timeline
     from prolepsis.logic.session import Session, shared_session
 
+    if given.chronicles:
+        # Chronicles may not take the names of actions' events, which are known once the actions have been imported.
+        import_module("prolepsis.programs")
     timeline = read_timeline(given.folder)
     session = Session(chronicles=tuple(given.chronicles)) if given.chronicles else shared_session()
     answers = session.ask(timeline, given.goal, limit=given.limit)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Iterable, Mapping
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,9 +12,9 @@ from prolepsis.commands.output import add_command, table
 from prolepsis.terms.errors import UnknownNameError
 
 if TYPE_CHECKING:
-    from prolepsis.fluents.registry import FactType
     from prolepsis.knowledge import KnowledgeBase
     from prolepsis.knowledge.vocabulary import ClassEntry, Property
+    from prolepsis.log.fact_types import FactType
     from prolepsis.programs import ActionSpec
     from prolepsis.programs.action import Parameter
 
@@ -145,10 +146,11 @@ def _knowledge() -> KnowledgeBase:
     return KnowledgeBase.load()
 
 
-def _facts() -> dict[str, FactType]:
-    from prolepsis.fluents import EVENTS, FLUENTS
+def _facts() -> Mapping[str, FactType]:
+    from prolepsis.fluents import fact_types
 
-    return dict(sorted({**FLUENTS, **EVENTS}.items()))
+    import_module("prolepsis.programs")  # which declares the events of actions
+    return fact_types()
 
 
 def _usage(fact: FactType) -> str:

@@ -6,10 +6,11 @@ import importlib
 import pkgutil
 
 from prolepsis.fluents.recognition import recognize
-from prolepsis.fluents.registry import EVENTS, FLUENTS, FactType, event, fluent
+from prolepsis.fluents.registry import event, fluent
+from prolepsis.log.fact_types import fact_types
 
 # Importing a family registers it, so a file put here is all that a new fluent takes.
 for _module in pkgutil.iter_modules(__path__):
     importlib.import_module(f"{__name__}.{_module.name}")
 
-__all__ = ["EVENTS", "FLUENTS", "FactType", "event", "fluent", "recognize"]
+__all__ = ["event", "fact_types", "fluent", "recognize"]

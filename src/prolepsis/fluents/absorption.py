@@ -31,7 +31,7 @@ def dripping(observation: Observation) -> Iterator[Fact]:
     yield from _exchanged(observation, "dripping", into=False)
 
 
-@event("wiping", "o1", "o2")
+@event("wiping", "o1", "o2", action=WIPE)
 def wiping(observation: Observation) -> Iterator[Fact]:
     """A robot wipes o2 with o1, which touches it."""
     for done in observation.log.actions:

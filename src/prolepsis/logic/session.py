@@ -206,13 +206,13 @@ class Session:
             return self._process
 
     def _load_chronicles(self, process: PrologProcess, number: int) -> None:
-        from prolepsis.fluents import EVENTS, FLUENTS
+        from prolepsis.fluents import fact_types
 
         file = self._chronicles[number]
         text = read_rules(file)
         copy = process.folder / "rules.pl"
         copy.write_text(text, encoding="utf-8")
-        taken = ",".join(map(format_atom, sorted({*FLUENTS, *EVENTS})))
+        taken = ",".join(map(format_atom, fact_types()))
         goal = f"rules:add_rules({number}, {format_atom(str(copy))}, [{taken}], {format_value(CHRONICLE_LIMIT)}, Reply)"
         self._rules_reply(process, goal, file, CHRONICLE_LIMIT, text)
         copy.unlink()

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from prolepsis.log.fact_types import declare_action, event_of
 from prolepsis.log.things import Thing
 from prolepsis.robots.commands import Behaviour
 from prolepsis.robots.hand import HAND as ROBOT
@@ -107,6 +108,11 @@ class ActionSpec:
     moves: str | None = None
     """What of the robots it names it moves, ``base`` or ``head``; None for one that moves the hands it names."""
 
+    @property
+    def event(self) -> str:
+        """Type of the event that it is on a timeline: ``lifting``."""
+        return event_of(self.name)
+
     def usage(self) -> str:
         """Return how it is written: ``lift(Hand, Height, Speed = 0.25 m/s)``."""
         return usage_of(self.name, self.parameters)
@@ -131,13 +137,17 @@ ACTIONS: dict[str, ActionSpec] = {}
 def action(
     *parameters: Parameter, check: Callable[..., None] | None = None, moves: str | None = None
 ) -> Callable[[Callable[..., Behaviour]], Callable[..., Behaviour]]:
-    """Register the decorated generator function as an action of its name; its docstring's first line is for users."""
+    """Register the decorated generator function as an action of its name, and the event that it is.
+
+    Its docstring's first line is for users.
+    """
 
     def register(behave: Callable[..., Behaviour]) -> Callable[..., Behaviour]:
         doc = (behave.__doc__ or "").strip().partition("\n")[0]  # `python -OO` leaves none
         ACTIONS[behave.__name__] = ActionSpec(
             name=behave.__name__, parameters=parameters, doc=doc, behave=behave, check=check, moves=moves
         )
+        declare_action(behave.__name__, tuple(each.name for each in parameters))
         return behave
 
     return register
