@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from prolepsis.knowledge.vocabulary import ClassEntry, Property
     from prolepsis.log.fact_types import FactType
     from prolepsis.programs import ActionSpec
-    from prolepsis.programs.action import Parameter
+    from prolepsis.programs.action import ParameterSpec
 
 LIST_EXAMPLE = """\
   prolepsis list actions
@@ -168,7 +168,7 @@ def _condition(name: str) -> str:
     return f"{spec.usage(name)}: condition\n  {spec.doc}\n" + _parameters(spec.parameters)
 
 
-def _parameters(parameters: Iterable[Parameter]) -> str:
+def _parameters(parameters: Iterable[ParameterSpec]) -> str:
     from prolepsis.programs.action import KINDS
 
     return table(((parameter.name, KINDS[parameter.kind]) for parameter in parameters), indent="  ")

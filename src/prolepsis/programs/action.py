@@ -81,7 +81,7 @@ HINTS: Mapping[str, str] = {
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Parameter:
+class ParameterSpec:
     """One argument of an action."""
 
     name: str
@@ -98,7 +98,7 @@ class ActionSpec:
     """One kind of action."""
 
     name: str
-    parameters: tuple[Parameter, ...]
+    parameters: tuple[ParameterSpec, ...]
     doc: str
     """What it does, in a line."""
     behave: Callable[..., Behaviour] = field(repr=False)
@@ -118,7 +118,7 @@ class ActionSpec:
         return usage_of(self.name, self.parameters)
 
 
-def usage_of(name: str, parameters: Iterable[Parameter]) -> str:
+def usage_of(name: str, parameters: Iterable[ParameterSpec]) -> str:
     """Return how a term with these parameters is written."""
     shown: list[str] = []
     for parameter in parameters:
@@ -135,7 +135,7 @@ ACTIONS: dict[str, ActionSpec] = {}
 
 
 def action(
-    *parameters: Parameter, check: Callable[..., None] | None = None, moves: str | None = None
+    *parameters: ParameterSpec, check: Callable[..., None] | None = None, moves: str | None = None
 ) -> Callable[[Callable[..., Behaviour]], Callable[..., Behaviour]]:
     """Register the decorated generator function as an action of its name, and the event that it is.
 
@@ -162,14 +162,14 @@ ROLES = {"hand": "Gripper", "robot": "Robot"}
 OWN = frozenset(ROLES.values())
 """Roles of what is no object to a plan."""
 
-HAND = Parameter(name="hand", kind="hand")
-ROBOT_NAME = Parameter(name="robot", kind="robot")
-OBJECT = Parameter(name="object", kind="object")
-HELD = Parameter(name="object", kind="object", needs="loose")
-FORCE = Parameter(name="force", kind="force")
+HAND = ParameterSpec(name="hand", kind="hand")
+ROBOT_NAME = ParameterSpec(name="robot", kind="robot")
+OBJECT = ParameterSpec(name="object", kind="object")
+HELD = ParameterSpec(name="object", kind="object", needs="loose")
+FORCE = ParameterSpec(name="force", kind="force")
 
 
-def bind(parameters: tuple[Parameter, ...], term: Term, scene: Scene, usage: str = "") -> dict[str, Any]:
+def bind(parameters: tuple[ParameterSpec, ...], term: Term, scene: Scene, usage: str = "") -> dict[str, Any]:
     """Return the arguments of an action or a condition by name: things for names, SI numbers for quantities.
 
     Raises:
@@ -192,7 +192,7 @@ def bind(parameters: tuple[Parameter, ...], term: Term, scene: Scene, usage: str
     return bound
 
 
-def _refuse_beyond(parameters: tuple[Parameter, ...], bound: dict[str, Any], term: Term) -> None:
+def _refuse_beyond(parameters: tuple[ParameterSpec, ...], bound: dict[str, Any], term: Term) -> None:
     """Refuse what is given and more than the hand can that an action names; what is left out is what it can at most."""
     for hand in (each for each in bound.values() if isinstance(each, Thing) and "Gripper" in each.roles):
         for k, parameter in enumerate(parameters):
@@ -216,7 +216,7 @@ LIMITS: Mapping[str, str] = {
 """Quantity of a gripper that says how much of a kind it can."""
 
 
-def _bind(parameter: Parameter, value: Value, term: Term, scene: Scene) -> Any:
+def _bind(parameter: ParameterSpec, value: Value, term: Term, scene: Scene) -> Any:
     where = f"plan: {parameter.name} of {brief(term)}"
     if isinstance(value, Variable):
         raise PlanError(f"{where} has no value; give parameter {value.name} one")
@@ -249,7 +249,7 @@ def _bind(parameter: Parameter, value: Value, term: Term, scene: Scene) -> Any:
     return number
 
 
-def _bind_thing(parameter: Parameter, value: Value, where: str, scene: Scene) -> Thing:
+def _bind_thing(parameter: ParameterSpec, value: Value, where: str, scene: Scene) -> Thing:
     if not isinstance(value, str):
         raise PlanError(f"{where} must be the {KINDS[parameter.kind]}, not {brief(value)}")
     role = ROLES.get(parameter.kind)
@@ -262,7 +262,7 @@ def _bind_thing(parameter: Parameter, value: Value, where: str, scene: Scene) ->
     raise UnknownNameError.of(KINDS[parameter.kind].rsplit(" ", 1)[-1], value, (t.name for t in choices), where)
 
 
-def refuse_fixed(parameters: tuple[Parameter, ...], arguments: Mapping[str, Any], term: Term, scene: Scene) -> None:
+def refuse_fixed(parameters: tuple[ParameterSpec, ...], arguments: Mapping[str, Any], term: Term, scene: Scene) -> None:
     """Refuse a fixed thing where an action needs one that a hand can hold.
 
     Raises:
@@ -296,7 +296,7 @@ def _bind_file(value: Value, where: str, scene: Scene) -> Path:
     return scene.folder / value
 
 
-def _within(parameter: Parameter, number: float, where: str) -> float:
+def _within(parameter: ParameterSpec, number: float, where: str) -> float:
     if not math.isfinite(number):
         raise PlanError(f"{where} must be finite, not {number:g}")
     kind = parameter.kind

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from prolepsis.log.things import Thing
-from prolepsis.programs.action import FORCE, HAND, OBJECT, Parameter, bind, usage_of
+from prolepsis.programs.action import FORCE, HAND, OBJECT, ParameterSpec, bind, usage_of
 from prolepsis.robots.commands import Sense
 from prolepsis.scene.scene import Scene
 from prolepsis.terms.errors import PlanError, UnknownNameError, brief
@@ -19,7 +19,7 @@ Condition = Callable[[Sense], bool]
 class ConditionSpec:
     """One kind of condition."""
 
-    parameters: tuple[Parameter, ...]
+    parameters: tuple[ParameterSpec, ...]
     doc: str
     """When it holds, in a line."""
     holds: Callable[..., bool]
@@ -50,7 +50,7 @@ def _cracked(sense: Sense, *, object: Thing) -> bool:
     return sense.cracked(object.name)
 
 
-OTHER = Parameter(name="other", kind="object")
+OTHER = ParameterSpec(name="other", kind="object")
 CONDITIONS = {
     "touching": ConditionSpec(parameters=(OBJECT, OTHER), doc="The two touch.", holds=_touching),
     "pressed": ConditionSpec(
@@ -58,7 +58,7 @@ CONDITIONS = {
     ),
     "holding": ConditionSpec(parameters=(HAND,), doc="Both pads of the hand feel something.", holds=_holding),
     "above": ConditionSpec(
-        parameters=(OBJECT, Parameter(name="height", kind="length")),
+        parameters=(OBJECT, ParameterSpec(name="height", kind="length")),
         doc="The object's frame is higher than a height over the ground.",
         holds=_above,
     ),

@@ -10,7 +10,7 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, Quaternion, Triple, triple
 from prolepsis.log.things import Thing
-from prolepsis.programs.action import Parameter
+from prolepsis.programs.action import ParameterSpec
 from prolepsis.programs.following import go
 from prolepsis.programs.grasping import longest_axis, yaw_of
 from prolepsis.programs.turning import matrix
@@ -20,7 +20,7 @@ from prolepsis.scene.extent import middle
 from prolepsis.scene.scene import Scene, robot_of_gripper
 from prolepsis.terms.errors import PlanError
 
-OTHER = Parameter(name="other", kind="hand")
+OTHER = ParameterSpec(name="other", kind="hand")
 """The second hand."""
 AWAY = (0.0, 20.0, -20.0, 40.0, -40.0)
 """The line through both hands is tried across the robot's front, and turned by these [degrees]."""

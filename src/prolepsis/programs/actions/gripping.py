@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from prolepsis.log.things import Thing
-from prolepsis.programs.action import FORCE, HAND, HELD, Parameter, action
+from prolepsis.programs.action import FORCE, HAND, HELD, ParameterSpec, action
 from prolepsis.programs.actions.motion import HEIGHT, SHORT, open_to, stay, within_workspace
 from prolepsis.programs.grasping import CLEARANCE, grip_as_turned
 from prolepsis.programs.nesting import nested
@@ -52,7 +52,7 @@ def grasp(
     return (yield from close_from(hand, grip.width + CLEARANCE, force, sense))
 
 
-@action(HAND, HELD, FORCE, Parameter(name="duration", kind="duration", default=1.0))
+@action(HAND, HELD, FORCE, ParameterSpec(name="duration", kind="duration", default=1.0))
 def squeeze(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, force: float, duration: float) -> Behaviour:
     """Press what the hand holds with the given force for a while, then hold it as before."""
     del scene, object

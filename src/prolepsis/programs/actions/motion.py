@@ -8,7 +8,7 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, Quaternion, Triple, triple
 from prolepsis.log.things import Thing
-from prolepsis.programs.action import HAND, Parameter, action
+from prolepsis.programs.action import HAND, ParameterSpec, action
 from prolepsis.programs.following import follow, go
 from prolepsis.programs.grasping import (
     LEAST_MARGIN,
@@ -34,11 +34,11 @@ TICK = 1.0e-3
 OPENING_SPEED = 0.2
 """Speed of the gap when nothing is held [m/s]."""
 
-SPEED = Parameter(name="speed", kind="speed", default=0.25)
-ACCELERATION = Parameter(name="acceleration", kind="acceleration", default=1.0)
-REACHED = Parameter(name="object", kind="object", needs="solid")
-HEIGHT = Parameter(name="height", kind="length", default=0.0)
-SHORT = Parameter(name="short", kind="length", default=0.0)
+SPEED = ParameterSpec(name="speed", kind="speed", default=0.25)
+ACCELERATION = ParameterSpec(name="acceleration", kind="acceleration", default=1.0)
+REACHED = ParameterSpec(name="object", kind="object", needs="solid")
+HEIGHT = ParameterSpec(name="height", kind="length", default=0.0)
+SHORT = ParameterSpec(name="short", kind="length", default=0.0)
 
 
 def line(displacement: Triple, acceleration: float, speed: float) -> Iterator[tuple[Triple, Triple]]:
@@ -164,7 +164,7 @@ def _reach_by_arm(
     raise ActionFailedError(first.problem, f"{object.name} by {hand.name}: {first.detail}")
 
 
-@action(HAND, Parameter(name="height", kind="length"), SPEED, ACCELERATION)
+@action(HAND, ParameterSpec(name="height", kind="length"), SPEED, ACCELERATION)
 def lift(scene: Scene, sense: Sense, *, hand: Thing, height: float, speed: float, acceleration: float) -> Behaviour:
     """Move the hand straight up (down if negative)."""
     del scene
@@ -173,9 +173,9 @@ def lift(scene: Scene, sense: Sense, *, hand: Thing, height: float, speed: float
 
 @action(
     HAND,
-    Parameter(name="displacement", kind="displacement"),
+    ParameterSpec(name="displacement", kind="displacement"),
     ACCELERATION,
-    Parameter(name="speed", kind="speed", default=1.0),
+    ParameterSpec(name="speed", kind="speed", default=1.0),
 )
 def carry(
     scene: Scene, sense: Sense, *, hand: Thing, displacement: Triple, acceleration: float, speed: float
@@ -185,14 +185,14 @@ def carry(
     return (yield from travel(hand, sense, displacement, acceleration, speed))
 
 
-@action(HAND, Parameter(name="duration", kind="duration"))
+@action(HAND, ParameterSpec(name="duration", kind="duration"))
 def hold(scene: Scene, sense: Sense, *, hand: Thing, duration: float) -> Behaviour:
     """Keep the hand where it is and its grip as it is."""
     del scene, hand
     return (yield from stay(duration, sense))
 
 
-@action(Parameter(name="duration", kind="duration"))
+@action(ParameterSpec(name="duration", kind="duration"))
 def wait(scene: Scene, sense: Sense, *, duration: float) -> Behaviour:
     """Let time pass."""
     del scene

@@ -10,7 +10,7 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, Quaternion, triple
 from prolepsis.log.things import Thing
-from prolepsis.programs.action import FORCE, HAND, HELD, Parameter, action
+from prolepsis.programs.action import FORCE, HAND, HELD, ParameterSpec, action
 from prolepsis.programs.actions.gripping import close_from
 from prolepsis.programs.actions.motion import open_to, stay, travel
 from prolepsis.programs.following import go
@@ -104,7 +104,7 @@ def _can_peel(scene: Scene, *, hand: Thing, other: Thing, object: Thing, **_: ob
     check_two_arms(scene, "peel", hand, other, object)
 
 
-@action(HAND, OTHER, HELD, FORCE, Parameter(name="tries", kind="count", default=4.0), check=_can_peel)
+@action(HAND, OTHER, HELD, FORCE, ParameterSpec(name="tries", kind="count", default=4.0), check=_can_peel)
 def peel(
     scene: Scene, sense: Sense, *, hand: Thing, other: Thing, object: Thing, force: float, tries: float
 ) -> Behaviour:

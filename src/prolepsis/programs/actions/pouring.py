@@ -9,7 +9,7 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, Quaternion
 from prolepsis.log.things import Thing
-from prolepsis.programs.action import HAND, Parameter, action
+from prolepsis.programs.action import HAND, ParameterSpec, action
 from prolepsis.programs.actions.motion import stay, travel_over
 from prolepsis.programs.actions.turning import RATE
 from prolepsis.programs.following import follow
@@ -60,13 +60,13 @@ def _can_pour(
 
 @action(
     HAND,
-    Parameter(name="source", kind="object", needs="loose"),
-    Parameter(name="target", kind="object", needs="solid"),
-    Parameter(name="angle", kind="angle", default=math.radians(110.0)),
+    ParameterSpec(name="source", kind="object", needs="loose"),
+    ParameterSpec(name="target", kind="object", needs="solid"),
+    ParameterSpec(name="angle", kind="angle", default=math.radians(110.0)),
     RATE,
-    Parameter(name="height", kind="length", default=0.02),
-    Parameter(name="offset", kind="length", default=0.0),
-    Parameter(name="duration", kind="duration", default=1.0),
+    ParameterSpec(name="height", kind="length", default=0.02),
+    ParameterSpec(name="offset", kind="length", default=0.0),
+    ParameterSpec(name="duration", kind="duration", default=1.0),
     check=_can_pour,
 )
 def pour(

@@ -10,7 +10,7 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, Quaternion, triple
 from prolepsis.log.things import Thing
-from prolepsis.programs.action import HAND, Parameter, action
+from prolepsis.programs.action import HAND, ParameterSpec, action
 from prolepsis.programs.actions.gripping import FASTEST, SLOWEST, SPEED_PER_FORCE
 from prolepsis.programs.actions.motion import ARRIVED, OPENING_SPEED
 from prolepsis.programs.profile import PEAK_SPEED, least_jerk, least_time
@@ -109,7 +109,7 @@ def _refuse_fast(recording: Recording, ways: FloatArray, limit: float, what: str
         raise PlanError(f"{recording.row(k + 1)}: {what} at {speeds[k]:.3g} {unit}, allowed {limit:.3g} {unit}")
 
 
-@action(HAND, Parameter(name="file", kind="file"), check=_can_replay)
+@action(HAND, ParameterSpec(name="file", kind="file"), check=_can_replay)
 def replay(scene: Scene, sense: Sense, *, hand: Thing, file: Path) -> Behaviour:
     """Go to where a recorded stream starts, then do what it tells, at its times."""
     recording = read_recording(file, [joint.name for joint in _joints_of(scene, hand)])

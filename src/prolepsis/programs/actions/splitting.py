@@ -9,7 +9,7 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, Quaternion, triple
 from prolepsis.log.things import Thing
-from prolepsis.programs.action import FORCE, HAND, HELD, Parameter, action
+from prolepsis.programs.action import FORCE, HAND, HELD, ParameterSpec, action
 from prolepsis.programs.actions.gripping import close_from
 from prolepsis.programs.actions.motion import MARGIN, open_to, stay, travel
 from prolepsis.programs.combining import Maker, all_together
@@ -38,8 +38,8 @@ def _can_split(scene: Scene, *, hand: Thing, other: Thing, object: Thing, **_: o
     OTHER,
     HELD,
     FORCE,
-    Parameter(name="angle", kind="angle", default=math.radians(30.0)),
-    Parameter(name="distance", kind="length", default=0.08),
+    ParameterSpec(name="angle", kind="angle", default=math.radians(30.0)),
+    ParameterSpec(name="distance", kind="length", default=0.08),
     check=_can_split,
 )
 def split(

@@ -8,7 +8,7 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, Triple
 from prolepsis.log.things import Thing
-from prolepsis.programs.action import HAND, HELD, Parameter, action
+from prolepsis.programs.action import HAND, HELD, ParameterSpec, action
 from prolepsis.programs.actions.motion import stay, travel, travel_over
 from prolepsis.programs.following import follow
 from prolepsis.programs.grasping import as_seen
@@ -38,8 +38,8 @@ RATE = 8.0
 RAMP_TIME, HOLD_TIME = 1.0, 0.5
 """A push grows to its force in this time, and is held for this time [s]."""
 
-AGAINST = Parameter(name="against", kind="object", needs="solid")
-PART = Parameter(name="part", kind="part", default="edge")
+AGAINST = ParameterSpec(name="against", kind="object", needs="solid")
+PART = ParameterSpec(name="part", kind="part", default="edge")
 
 
 def _has_part(scene: Scene, *, object: Thing, against: Thing, part: str, **_: object) -> None:
@@ -49,7 +49,7 @@ def _has_part(scene: Scene, *, object: Thing, against: Thing, part: str, **_: ob
     spots(against, part)
 
 
-@action(HAND, HELD, AGAINST, Parameter(name="speed", kind="speed", default=0.25), PART, check=_has_part)
+@action(HAND, HELD, AGAINST, ParameterSpec(name="speed", kind="speed", default=0.25), PART, check=_has_part)
 def hit(
     scene: Scene, sense: Sense, *, hand: Thing, object: Thing, against: Thing, speed: float, part: str
 ) -> Behaviour:
@@ -97,9 +97,9 @@ def _blow(length: float, speed: float) -> FloatArray:
     HAND,
     HELD,
     AGAINST,
-    Parameter(name="force", kind="push"),
-    Parameter(name="part", kind="part", default="top"),
-    Parameter(name="duration", kind="duration", default=HOLD_TIME),
+    ParameterSpec(name="force", kind="push"),
+    ParameterSpec(name="part", kind="part", default="top"),
+    ParameterSpec(name="duration", kind="duration", default=HOLD_TIME),
     check=_has_part,
 )
 def press(
@@ -123,7 +123,9 @@ def press(
 
 
 @action(
-    HAND, Parameter(name="target", kind="object", needs="solid"), Parameter(name="height", kind="length", default=0.08)
+    HAND,
+    ParameterSpec(name="target", kind="object", needs="solid"),
+    ParameterSpec(name="height", kind="length", default=0.08),
 )
 def bring(scene: Scene, sense: Sense, *, hand: Thing, target: Thing, height: float) -> Behaviour:
     """Move the hand, turned as it is and with what it holds, to a height over the middle of something's top."""

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from prolepsis.log.things import Thing
-from prolepsis.programs.action import OBJECT, ROBOT_NAME, Parameter, action
+from prolepsis.programs.action import OBJECT, ROBOT_NAME, ParameterSpec, action
 from prolepsis.programs.profile import least_jerk, least_time
 from prolepsis.robots.commands import ActionFailedError, Behaviour, JointTarget, RobotSense, Sense
 from prolepsis.scene.scene import Scene
@@ -41,9 +41,9 @@ def _can_drive(scene: Scene, *, robot: Thing, **_: object) -> None:
 
 @action(
     ROBOT_NAME,
-    Parameter(name="place", kind="place"),
-    Parameter(name="yaw", kind="angle", default=0.0),
-    Parameter(name="speed", kind="speed", default=0.4),
+    ParameterSpec(name="place", kind="place"),
+    ParameterSpec(name="yaw", kind="angle", default=0.0),
+    ParameterSpec(name="speed", kind="speed", default=0.4),
     check=_can_drive,
     moves="base",
 )
@@ -91,7 +91,7 @@ def _can_raise(scene: Scene, *, robot: Thing, **_: object) -> None:
         raise PlanError(f"plan: {robot.name} has no torso to raise")
 
 
-@action(ROBOT_NAME, Parameter(name="height", kind="length"), check=_can_raise, moves="torso")
+@action(ROBOT_NAME, ParameterSpec(name="height", kind="length"), check=_can_raise, moves="torso")
 def raise_torso(scene: Scene, sense: Sense, *, robot: Thing, height: float) -> Behaviour:
     """Move the torso to a height in its range."""
     torso = scene.robots[robot.name].torso[-1].name

@@ -7,14 +7,14 @@ import math
 import numpy as np
 
 from prolepsis.log.things import Thing
-from prolepsis.programs.action import HAND, Parameter, action
+from prolepsis.programs.action import HAND, ParameterSpec, action
 from prolepsis.programs.following import follow
 from prolepsis.programs.turning import course
 from prolepsis.robots.commands import Behaviour, Sense
 from prolepsis.scene.scene import Scene
 
-ANGLE = Parameter(name="angle", kind="angle")
-RATE = Parameter(name="rate", kind="rate", default=math.radians(30.0))
+ANGLE = ParameterSpec(name="angle", kind="angle")
+RATE = ParameterSpec(name="rate", kind="rate", default=math.radians(30.0))
 
 
 @action(HAND, ANGLE, RATE)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from prolepsis.geometry.shape import Triple
 from prolepsis.log.things import Thing
-from prolepsis.programs.action import HAND, HELD, Parameter, action
+from prolepsis.programs.action import HAND, HELD, ParameterSpec, action
 from prolepsis.programs.actions.motion import TICK, line, travel
 from prolepsis.robots.commands import Behaviour, HandTarget, Sense
 from prolepsis.scene.scene import Scene
@@ -22,11 +22,11 @@ LIFT_SPEED = 0.05
 @action(
     HAND,
     HELD,
-    Parameter(name="surface", kind="object", needs="solid"),
-    Parameter(name="displacement", kind="displacement"),
-    Parameter(name="strokes", kind="count", default=2.0),
-    Parameter(name="force", kind="push", default=1.0),
-    Parameter(name="speed", kind="speed", default=0.15),
+    ParameterSpec(name="surface", kind="object", needs="solid"),
+    ParameterSpec(name="displacement", kind="displacement"),
+    ParameterSpec(name="strokes", kind="count", default=2.0),
+    ParameterSpec(name="force", kind="push", default=1.0),
+    ParameterSpec(name="speed", kind="speed", default=0.15),
 )
 def wipe(
     scene: Scene,
