@@ -39,8 +39,8 @@ ROLLS = (0.0, 90.0)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Grip:
-    """A place of the hand at which an object is between its pads."""
+class GraspPose:
+    """A pose of the hand at which an object is between its pads."""
 
     offset: Triple
     """Of the hand's frame from its first place [m]."""
@@ -96,21 +96,21 @@ def way_to(hand: Thing, object: Thing, sense: Sense, height: float = 0.0) -> Flo
     return place - np.asarray(sense.hands[hand.name].position)
 
 
-def grip_as_turned(hand: Thing, object: Thing, sense: Sense, height: float) -> Grip:
-    """Return the grip for which the hand need not turn."""
+def grasp_as_turned(hand: Thing, object: Thing, sense: Sense, height: float) -> GraspPose:
+    """Return the grasp pose for which the hand need not turn."""
     here = sense.hands[hand.name]
     width = grasping_width(here.orientation, as_seen(object, sense))
     way = way_to(hand, object, sense, height)
     forward = rotate(here.orientation, (1.0, 0.0, 0.0))
     if here.arm is not None:
         way = way - here.arm.pad_shift(width) * forward
-    return Grip(offset=_sum(here.offset, way), turn=here.turn, width=width, forward=triple(forward))
+    return GraspPose(offset=_sum(here.offset, way), turn=here.turn, width=width, forward=triple(forward))
 
 
-def grips(
+def grasp_poses(
     hand: Thing, object: Thing, sense: Sense, height: float, arm: Arm, reference: Quaternion, short: float = 0.0
-) -> Iterator[Grip]:
-    """Yield the grips of a hand on an arm that are wide enough, the most natural first.
+) -> Iterator[GraspPose]:
+    """Yield the poses at which a hand on an arm can grasp an object, the most natural first.
 
     The pads' middle stops ``short`` [m] of the middle of the object, so that another hand finds room.
     """
@@ -136,7 +136,7 @@ def grips(
         forward = rotate(orientation, (1.0, 0.0, 0.0))
         ahead = np.array([forward[0], forward[1], 0.0]) / max(float(np.hypot(forward[0], forward[1])), 1e-9)
         offset = place + (0.0, 0.0, higher) - short * ahead - arm.pad_shift(width) * forward - first
-        yield Grip(offset=triple(offset), turn=turn, width=width, forward=triple(forward))
+        yield GraspPose(offset=triple(offset), turn=turn, width=width, forward=triple(forward))
 
 
 def _axis(k: int) -> Triple:

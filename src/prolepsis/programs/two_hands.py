@@ -31,7 +31,7 @@ SHORTS = tuple(0.001 * k for k in range(12, 37, 2))
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Placed:
+class HandPose:
     """Where a hand is, in the world."""
 
     place: FloatArray
@@ -44,19 +44,19 @@ class Placed:
         first = np.asarray(hand.position) - np.asarray(hand.offset)
         return triple(self.place - first), turn_of(reference, quaternion_of(self.turn))
 
-    def moved(self, about: FloatArray, axis: FloatArray, angle: float, by: FloatArray) -> Placed:
+    def moved(self, about: FloatArray, axis: FloatArray, angle: float, by: FloatArray) -> HandPose:
         """Return it turned about an axis through a point by ``angle`` [rad], then moved ``by`` [m]."""
         half = math.sin(angle / 2)
         x, y, z = (float(v) * half for v in axis)
         turn = matrix((math.cos(angle / 2), x, y, z))
-        return Placed(place=about + turn @ (self.place - about) + by, turn=turn @ self.turn)
+        return HandPose(place=about + turn @ (self.place - about) + by, turn=turn @ self.turn)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Hold:
+class HeldOut:
     """How the first hand holds a thing out to the second."""
 
-    first: Placed
+    first: HandPose
     middle: FloatArray
     """Of the thing [m], shape (3,)."""
     across: FloatArray
@@ -64,16 +64,16 @@ class Hold:
     pinch: FloatArray
     """Unit vector from pad to pad, level, shape (3,)."""
 
-    def second(self, short: float, pad_shift: float) -> Iterator[Placed]:
+    def second(self, short: float, pad_shift: float) -> Iterator[HandPose]:
         """Yield places of the second hand whose pads' middle is ``short`` [m] from the thing's: a mirror image."""
         ahead = self.first.turn[:, 0]
         forward = ahead - 2 * float(ahead @ self.across) * self.across
         for pinch in (self.pinch, -self.pinch):
             turn = np.stack([forward, pinch, np.cross(forward, pinch)], axis=1)
-            yield Placed(place=self.middle + short * self.across - pad_shift * forward, turn=turn)
+            yield HandPose(place=self.middle + short * self.across - pad_shift * forward, turn=turn)
 
 
-def holds(hand: HandSense, other: HandSense, object: Thing, reference: Quaternion) -> Iterator[Hold]:
+def holds(hand: HandSense, other: HandSense, object: Thing, reference: Quaternion) -> Iterator[HeldOut]:
     """Yield how a hand may hold out a thing that it holds, as seen now, by one end: level, across the robot's front."""
     turn = matrix(hand.orientation)
     centre = np.asarray(object.position) + middle(object)
@@ -95,8 +95,8 @@ def holds(hand: HandSense, other: HandSense, object: Thing, reference: Quaternio
                 axes = np.stack([across, pinch, np.cross(across, pinch)], axis=1) @ own.T
                 if axes[2, 0] < 0:
                     there = centre + (0.0, 0.0, lifted)
-                    first = Placed(place=there - axes @ arm, turn=axes)
-                    yield Hold(first=first, middle=there, across=across, pinch=pinch)
+                    first = HandPose(place=there - axes @ arm, turn=axes)
+                    yield HeldOut(first=first, middle=there, across=across, pinch=pinch)
 
 
 def check_two_arms(scene: Scene, doing: str, hand: Thing, other: Thing, object: Thing) -> None:
@@ -112,12 +112,12 @@ def check_two_arms(scene: Scene, doing: str, hand: Thing, other: Thing, object: 
         raise PlanError(f"plan: {hand.name} and {other.name} are not on two arms of one robot")
 
 
-HeldOut = Generator[tuple[Command, ...], Sense, tuple[Hold, Sense]]
+Presenting = Generator[tuple[Command, ...], Sense, tuple[HeldOut, Sense]]
 
 
 def hold_out(
     hand: Thing, other: Thing, sense: Sense, seen: Thing, touching: Collection[str], short: float, reference: Quaternion
-) -> HeldOut:
+) -> Presenting:
     """Hold a thing, as seen now, out across the robot's front, where both arms can be; return how it is held.
 
     Args:

@@ -7,7 +7,7 @@ import numpy as np
 from prolepsis.log.things import Thing
 from prolepsis.programs.action import FORCE, HAND, HELD, ParameterSpec, action
 from prolepsis.programs.actions.motion import HEIGHT, SHORT, open_to, stay, within_workspace
-from prolepsis.programs.grasping import CLEARANCE, grip_as_turned
+from prolepsis.programs.grasping import CLEARANCE, grasp_as_turned
 from prolepsis.programs.nesting import nested
 from prolepsis.robots.commands import Behaviour, CloseGripper, Sense
 from prolepsis.scene.scene import Scene
@@ -42,14 +42,14 @@ def grasp(
     scene: Scene, sense: Sense, *, hand: Thing, object: Thing, force: float, height: float, short: float
 ) -> Behaviour:
     """Reach for the object's middle, a height above or short of it, unless the hand is there; close with a force."""
-    grip = grip_as_turned(hand, object, sense, height)
+    pose = grasp_as_turned(hand, object, sense, height)
     here = sense.hands[hand.name]
-    way = np.subtract(grip.offset, here.offset)
-    if np.abs(way).max() > CLEARANCE or here.opening < grip.width:
+    way = np.subtract(pose.offset, here.offset)
+    if np.abs(way).max() > CLEARANCE or here.opening < pose.width:
         aside = {name: value for name, value in (("height", height), ("short", short)) if value}
         sense = yield from nested("reach", scene, sense, hand=hand, object=object, **aside)
-        grip = grip_as_turned(hand, object, sense, height)
-    return (yield from close_from(hand, grip.width + CLEARANCE, force, sense))
+        pose = grasp_as_turned(hand, object, sense, height)
+    return (yield from close_from(hand, pose.width + CLEARANCE, force, sense))
 
 
 @action(HAND, HELD, FORCE, ParameterSpec(name="duration", kind="duration", default=1.0))

@@ -15,9 +15,9 @@ from prolepsis.programs.grasping import (
     MARGIN,
     STANDOFF,
     as_seen,
+    grasp_as_turned,
+    grasp_poses,
     grasping_width,
-    grip_as_turned,
-    grips,
     least_width,
 )
 from prolepsis.programs.profile import PEAK_ACCELERATION, PEAK_SPEED, least_jerk
@@ -121,14 +121,14 @@ def reach(
     """Open the gripper wider than the object, if it is not, and move it round that, a height above or short of it."""
     if sense.hands[hand.name].arm is not None:
         return (yield from _reach_by_arm(hand, object, sense, speed, height, short, reference_of(scene, hand)))
-    grip = grip_as_turned(hand, object, sense, height)
-    width = min(grip.width + MARGIN, ROBOT.max_opening)
+    pose = grasp_as_turned(hand, object, sense, height)
+    width = min(pose.width + MARGIN, ROBOT.max_opening)
     if sense.hands[hand.name].opening < width:
         sense = yield from open_to(hand, width, sense)
-        grip = grip_as_turned(hand, object, sense, height)
-    way = np.subtract(grip.offset, sense.hands[hand.name].offset)
-    ahead = float(way @ np.asarray(grip.forward))
-    first = way - min(ahead, STANDOFF) * np.asarray(grip.forward)
+        pose = grasp_as_turned(hand, object, sense, height)
+    way = np.subtract(pose.offset, sense.hands[hand.name].offset)
+    ahead = float(way @ np.asarray(pose.forward))
+    first = way - min(ahead, STANDOFF) * np.asarray(pose.forward)
     for part in (first, way - first):
         if np.linalg.norm(part) > ARRIVED:
             step = (float(part[0]), float(part[1]), float(part[2]))
@@ -143,21 +143,21 @@ def _reach_by_arm(
     arm = sense.hands[hand.name].arm
     assert arm is not None
     first: Way | None = None
-    for grip in grips(hand, object, sense, height, arm, reference, short):
-        width = max(min(grip.width + MARGIN, hand.quantities["maxOpening"]), sense.hands[hand.name].opening)
+    for pose in grasp_poses(hand, object, sense, height, arm, reference, short):
+        width = max(min(pose.width + MARGIN, hand.quantities["maxOpening"]), sense.hands[hand.name].opening)
         # Only the last stretch is straight: before it, the object is in the way as anything is.
-        back = STANDOFF + extent_along(as_seen(object, sense), np.asarray(grip.forward)) / 2
-        there, before = (grip.offset, {object.name}), (grip.before(back), set[str]())
-        for (place, ignored), opening in ((there, grip.width), (there, width), (before, width)):
-            found = arm.way(place, grip.turn, ignored, opening)
+        back = STANDOFF + extent_along(as_seen(object, sense), np.asarray(pose.forward)) / 2
+        there, before = (pose.offset, {object.name}), (pose.before(back), set[str]())
+        for (place, ignored), opening in ((there, pose.width), (there, width), (before, width)):
+            found = arm.way(place, pose.turn, ignored, opening)
             if found.problem:
                 first = first or found
                 break
         else:
             if sense.hands[hand.name].opening < width:
                 sense = yield from open_to(hand, width, sense)
-            sense = yield from go(hand, sense, grip.before(back), grip.turn, ())
-            step = triple(np.subtract(grip.offset, grip.before(back)))
+            sense = yield from go(hand, sense, pose.before(back), pose.turn, ())
+            step = triple(np.subtract(pose.offset, pose.before(back)))
             return (yield from travel(hand, sense, step, 2.0, speed))
     if first is None:
         raise ActionFailedError("not_graspable", f"{object.name} is too wide for {hand.name} as it lies")

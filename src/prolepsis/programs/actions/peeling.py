@@ -16,7 +16,7 @@ from prolepsis.programs.actions.motion import open_to, stay, travel
 from prolepsis.programs.following import go
 from prolepsis.programs.grasping import CLEARANCE
 from prolepsis.programs.holding import holding
-from prolepsis.programs.two_hands import OTHER, Hold, Placed, check_two_arms, hold_out
+from prolepsis.programs.two_hands import OTHER, HandPose, HeldOut, check_two_arms, hold_out
 from prolepsis.robots.commands import Behaviour, HandTarget, Note, Sense, Way, no_way
 from prolepsis.scene.extent import extent_along
 from prolepsis.scene.parts import Kernel, Shard
@@ -84,7 +84,7 @@ class _Pinch:
 
     piece: str
     """Piece under one of its pads."""
-    at: Placed
+    at: HandPose
     width: float
     """Of what is between the pads [m]."""
     opening: float
@@ -135,7 +135,7 @@ def peel(
 
 
 def _pinch(
-    other: Thing, sense: Sense, shelled: _Shelled, held: Hold, reference: Quaternion, tried: set[str]
+    other: Thing, sense: Sense, shelled: _Shelled, held: HeldOut, reference: Quaternion, tried: set[str]
 ) -> _Pinch | Way | None:
     """Return the first pinch of a piece that is still on the kernel to which the arm gets; else why not to the first.
 
@@ -165,7 +165,7 @@ def _pinches(
     pad_shift: Callable[[float], float],
     sense: Sense,
     shelled: _Shelled,
-    held: Hold,
+    held: HeldOut,
 ) -> Iterator[_Pinch]:
     """Yield how a piece and what is opposite may be pinched."""
     along = float(way @ held.across)
@@ -185,11 +185,11 @@ def _pinches(
             pinch = side * across / float(np.linalg.norm(across))
             turn = np.stack([ahead, pinch, np.cross(ahead, pinch)], axis=1)
             place = np.asarray(seen.position) + along * held.across - pad_shift(width) * ahead
-            yield _Pinch(piece=name, at=Placed(place=place, turn=turn), width=width, opening=opening)
+            yield _Pinch(piece=name, at=HandPose(place=place, turn=turn), width=width, opening=opening)
 
 
 def _pull(
-    other: Thing, sense: Sense, shelled: _Shelled, held: Hold, pinch: _Pinch, reference: Quaternion, force: float
+    other: Thing, sense: Sense, shelled: _Shelled, held: HeldOut, pinch: _Pinch, reference: Quaternion, force: float
 ) -> Behaviour:
     """Pinch, draw away along the free end until the kernel follows, let go, and go back."""
     away = triple(WAY * held.across)

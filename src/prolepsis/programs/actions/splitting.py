@@ -17,7 +17,7 @@ from prolepsis.programs.following import follow, go
 from prolepsis.programs.grasping import CLEARANCE, STANDOFF, as_seen
 from prolepsis.programs.holding import holding
 from prolepsis.programs.profile import least_jerk
-from prolepsis.programs.two_hands import OTHER, SHORTS, Hold, Placed, check_two_arms, hold_out
+from prolepsis.programs.two_hands import OTHER, SHORTS, HandPose, HeldOut, check_two_arms, hold_out
 from prolepsis.robots.commands import Behaviour, Command, Sense, Way, no_way
 from prolepsis.robots.turned import quaternion_of, turn_of
 from prolepsis.scene.extent import extent_along, support
@@ -26,7 +26,7 @@ from prolepsis.scene.scene import Scene, reference_of
 OPENING_TIME, PARTING_TIME = 1.0, 1.0
 """Bending open and drawing apart take so long [s]."""
 
-_Taken = Generator[tuple[Command, ...], Sense, tuple[Placed, Sense]]
+_Taken = Generator[tuple[Command, ...], Sense, tuple[HandPose, Sense]]
 
 
 def _can_split(scene: Scene, *, hand: Thing, other: Thing, object: Thing, **_: object) -> None:
@@ -57,7 +57,7 @@ def split(
     )
 
 
-def _take(other: Thing, sense: Sense, object: Thing, held: Hold, reference: Quaternion, force: float) -> _Taken:
+def _take(other: Thing, sense: Sense, object: Thing, held: HeldOut, reference: Quaternion, force: float) -> _Taken:
     """Close the other hand round the free end."""
     there = sense.hands[other.name]
     assert there.arm is not None
@@ -67,7 +67,7 @@ def _take(other: Thing, sense: Sense, object: Thing, held: Hold, reference: Quat
     for short in SHORTS:
         for second in held.second(short, there.arm.pad_shift(width)):
             offset, turn = second.seen(there, reference)
-            back = Placed(place=second.place - STANDOFF * second.turn[:, 0], turn=second.turn)
+            back = HandPose(place=second.place - STANDOFF * second.turn[:, 0], turn=second.turn)
             before, _ = back.seen(there, reference)
             found = there.arm.way(offset, turn, {object.name}, width)
             if not found.problem:
@@ -85,10 +85,10 @@ def _take(other: Thing, sense: Sense, object: Thing, held: Hold, reference: Quat
 
 
 def _draw_apart(
-    hands: tuple[tuple[Thing, Placed], tuple[Thing, Placed]],
+    hands: tuple[tuple[Thing, HandPose], tuple[Thing, HandPose]],
     sense: Sense,
     object: Thing,
-    held: Hold,
+    held: HeldOut,
     reference: Quaternion,
     angle: float,
     distance: float,
@@ -100,7 +100,7 @@ def _draw_apart(
     parting = np.array([[1.0, share] for share, _ in least_jerk(PARTING_TIME)])
     shares = np.concatenate([opening, parting])
 
-    def course(start: Placed, side: float) -> tuple[FloatArray, FloatArray]:
+    def course(start: HandPose, side: float) -> tuple[FloatArray, FloatArray]:
         # What is below the axis moves to the hand's own side.
         axis = side * np.cross(held.across, up)
         steps = [
@@ -110,7 +110,7 @@ def _draw_apart(
         turns = [turn_of(reference, quaternion_of(step.turn)) for step in steps]
         return np.array([step.place for step in steps]), np.array(turns)
 
-    def maker(hand: Thing, start: Placed, side: float) -> Maker:
+    def maker(hand: Thing, start: HandPose, side: float) -> Maker:
         places, turns = course(start, side)
         here = sense.hands[hand.name]
         first = np.asarray(here.position) - np.asarray(here.offset)
