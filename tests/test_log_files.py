@@ -20,7 +20,7 @@ from prolepsis.terms.errors import InputError, LogError
 from synthetic import egg_drop_log, particles, wet_log
 
 FILES = (
-    *(MANIFEST, "log.json", "ticks.parquet", "poses.parquet", "contacts.parquet", "bonds.parquet"),
+    *(MANIFEST, "log.json", "ticks.parquet", "poses.parquet", "contacts.parquet", "joints.parquet"),
     *("particles.parquet", "particle_kinds.parquet", "particle_frames.parquet"),
 )
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, Geom, Shape, Triple
-from prolepsis.log.log import Action, Bonds, Contacts, Detachments, Log
+from prolepsis.log.log import Action, Contacts, Detachments, Joints, Log
 from prolepsis.log.things import FIXED, WITHIN, Thing
 
 DT = 0.001
@@ -58,7 +58,7 @@ class Draft:
         self,
         *,
         detachments: Detachments | None = None,
-        bonds: Bonds | None = None,
+        joints: Joints | None = None,
         channels: Mapping[str, FloatArray] | None = None,
         actions: tuple[Action, ...] = (),
     ) -> Log:
@@ -71,7 +71,7 @@ class Draft:
             carrier=self.carrier,
             contacts=self._contacts(),
             happenings=(detachments or Detachments()).happenings(),
-            bonds=bonds or Bonds(),
+            joints=joints or Joints(),
             channels=channels or {},
             actions=actions,
         )

@@ -10,7 +10,7 @@ from tests.fluents.worlds import ever, of_type, times
 from prolepsis.fluents import recognize
 from prolepsis.geometry.shape import Geom, Shape
 from prolepsis.log.fact_types import EVENTS, FLUENTS, event_of
-from prolepsis.log.log import Action, Bonds
+from prolepsis.log.log import Action, Joints
 from prolepsis.log.things import Thing
 from prolepsis.terms.terms import Term
 
@@ -118,8 +118,8 @@ def test_what_lies_on_a_palm_is_supported_and_not_attached() -> None:
 def test_a_joint_attaches_for_as_long_as_it_is_there() -> None:
     draft = grasp_draft()
     one = np.array([draft.index("rightGripper/palm")])
-    bonds = Bonds(a=one, b=np.array([draft.index("egg1")]), start=np.array([100]), end=np.array([500]))
-    timeline = recognize(draft.log(bonds=bonds))
+    joints = Joints(a=one, b=np.array([draft.index("egg1")]), start=np.array([100]), end=np.array([500]))
+    timeline = recognize(draft.log(joints=joints))
     assert times(timeline, "attached(rightGripper,egg1)") == [(0.1, 0.5)]
 
 

@@ -1,4 +1,4 @@
-"""Foreign rollouts become logs: things, forces as MuJoCo gives them, bonds, and refusals."""
+"""Foreign rollouts become logs: things, forces as MuJoCo gives them, joints, and refusals."""
 
 from __future__ import annotations
 
@@ -91,18 +91,18 @@ def test_a_mesh_becomes_the_vertices_of_its_hull() -> None:
     assert (geom.type, len(geom.vertices)) == ("mesh", 4)
 
 
-def test_a_switched_weld_is_a_bond_while_it_is_on() -> None:
+def test_a_switched_weld_is_a_joint_while_it_is_on() -> None:
     weld = '<equality><weld body1="a" body2="b"/></equality>'
 
     def switch(model: Any, data: Any) -> None:
         data.eq_active[0] = 0.01 < data.time < 0.05
 
     model, states = roll(world(box("a", "0 0 1") + box("b", "0 0 2"), weld), 0.1, switch)
-    bonds = Log.from_mujoco(model, states, STEP).bonds
-    assert len(bonds.a) == 1
-    assert (bonds.a[0], bonds.b[0]) == (0, 1)
-    assert 4 <= bonds.start[0] <= 7
-    assert 24 <= bonds.end[0] <= 27
+    joints = Log.from_mujoco(model, states, STEP).joints
+    assert len(joints.a) == 1
+    assert (joints.a[0], joints.b[0]) == (0, 1)
+    assert 4 <= joints.start[0] <= 7
+    assert 24 <= joints.end[0] <= 27
 
 
 def spoil(states: FloatArray, row: int, value: float) -> FloatArray:

@@ -37,7 +37,7 @@ class Grasp:
     peak_force: float
     """Greatest force of a pad [N]."""
     bonds_broken: int
-    """Joints of the object that gave way, in the whole run."""
+    """Bonds of the object that gave way, in the whole run."""
 
 
 def judge_grasp(timeline: Timeline, log: Log) -> Grasp:

@@ -14,7 +14,7 @@ import numpy as np
 
 from prolepsis.engine.matter import Stretch
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
-from prolepsis.log.log import FREE, Bonds, Contacts, Particles
+from prolepsis.log.log import FREE, Contacts, Joints, Particles
 from prolepsis.log.things import Thing
 
 HEIGHT = 0.01
@@ -59,7 +59,7 @@ class Surroundings:
 
     contacts: Contacts
     """Between things."""
-    bonds: Bonds
+    bonds: Joints
     """What stuck to what."""
     wet: BoolArray
     """Whether a liquid pushed each, shape (T, n); of no rows without liquids."""

@@ -17,7 +17,7 @@ from prolepsis.engine.state import State
 from prolepsis.engine.touching import empty_contacts
 from prolepsis.engine.turning import product, rotated
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
-from prolepsis.log.log import Bonds, Contacts, Particles
+from prolepsis.log.log import Contacts, Joints, Particles
 from prolepsis.system.mujoco import mujoco
 
 
@@ -169,11 +169,11 @@ class Recorder:
             last = block[-1]
         return poses, carriers
 
-    def bond_columns(self) -> Bonds:
+    def bond_columns(self) -> Joints:
         """Return one row for each time that two things stuck together."""
         rows = sorted((start, end, *pair) for pair, runs in self.bonds.items() for start, end in runs)
         start, end, a, b = np.array(rows, dtype=np.int64).reshape(-1, 4).T
-        return Bonds(a=a, b=b, start=start, end=end)
+        return Joints(a=a, b=b, start=start, end=end)
 
     def contact_columns(self, dt: float) -> Contacts:
         """Return one row for each pair of geoms and tick: forces averaged over the tick of length ``dt`` [s]."""

@@ -10,7 +10,7 @@ import numpy as np
 from prolepsis.engine.model_things import ModelThings, SceneThings, model_things
 from prolepsis.engine.touching import ContactRows, contact_rows, merge_rows
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
-from prolepsis.log.log import Bonds, Contacts, Log
+from prolepsis.log.log import Contacts, Joints, Log
 from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.errors import InputError, InvalidSimulationError
 
@@ -76,7 +76,7 @@ def read_rollout(model: Any, states: FloatArray, dt: float, scene: SceneThings |
         poses=poses,
         carrier=carrier,
         contacts=contacts,
-        bonds=_bonds(model, found, switched, sticking, stuck, contacts, touching),
+        joints=_bonds(model, found, switched, sticking, stuck, contacts, touching),
         gravity=(float(model.opt.gravity[0]), float(model.opt.gravity[1]), float(model.opt.gravity[2])),
     )
 
@@ -113,7 +113,7 @@ def _bonds(
     stuck: BoolArray,
     contacts: Contacts,
     adhesive: BoolArray,
-) -> Bonds:
+) -> Joints:
     rows: list[tuple[int, int, int, int]] = []
     for equality in range(model.neq):
         pair = _welded_pair(model, found, equality)
@@ -122,7 +122,7 @@ def _bonds(
     rows += _sticking_rows(found, sticking, stuck, contacts)
     rows += _sticky_rows(found, contacts, adhesive, len(switched))
     table = np.array(sorted(rows, key=lambda row: (row[2], row)), dtype=np.int64).reshape(-1, 4)
-    return Bonds(a=table[:, 0], b=table[:, 1], start=table[:, 2], end=table[:, 3])
+    return Joints(a=table[:, 0], b=table[:, 1], start=table[:, 2], end=table[:, 3])
 
 
 def _welded_pair(model: Any, found: ModelThings, equality: int) -> tuple[int, int] | None:

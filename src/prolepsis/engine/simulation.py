@@ -157,7 +157,7 @@ def simulate(
         poses=poses,
         carrier=carriers,
         contacts=contacts,
-        bonds=recorder.bond_columns(),
+        joints=recorder.bond_columns(),
         happenings=happening_columns(state.happenings),
         channels=channels.columns(),
         actions=tuple(sorted((a for a in actions if a.end > a.start), key=lambda a: (a.start, -a.end, str(a.term)))),

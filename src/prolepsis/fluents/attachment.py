@@ -65,7 +65,7 @@ def attached(observation: Observation) -> Iterator[Fact]:
             for holder in grip.holders:
                 args = names[holder], names[grip.held]
                 yield observation.fact("fluent", "attached", args, (start, end), evidence)
-    for (holder, held), stretches in observation.of(bond_runs).items():
+    for (holder, held), stretches in observation.of(joint_runs).items():
         for stretch in stretches:
             yield observation.fact("fluent", "attached", (names[holder], names[held]), stretch, {"by": "joint"})
 
@@ -76,17 +76,17 @@ def attachment_runs(observation: Observation) -> dict[tuple[int, int], IntArray]
     for grip in observation.of(grips):
         for holder in grip.holders:
             found.setdefault((holder, grip.held), []).append(grip.stretches)
-    for pair, stretches in observation.of(bond_runs).items():
+    for pair, stretches in observation.of(joint_runs).items():
         found.setdefault(pair, []).append(stretches)
     return {pair: union(several) for pair, several in found.items()}
 
 
-def bond_runs(observation: Observation) -> dict[tuple[int, int], IntArray]:
+def joint_runs(observation: Observation) -> dict[tuple[int, int], IntArray]:
     """Return when joints or adhesion hold units together: (holder, held) to runs."""
-    bonds = observation.log.bonds
+    joints = observation.log.joints
     things = observation.log.things
     found: dict[tuple[int, int], list[IntArray]] = {}
-    for a, b, start, end in zip(bonds.a, bonds.b, bonds.start, bonds.end, strict=True):
+    for a, b, start, end in zip(joints.a, joints.b, joints.start, joints.end, strict=True):
         holder, held = int(observation.unit[a]), int(observation.unit[b])
         if things[held].fixed and not things[holder].fixed:
             holder, held = held, holder

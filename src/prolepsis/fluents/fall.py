@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from prolepsis.fluents.attachment import attachment_runs, bond_runs
+from prolepsis.fluents.attachment import attachment_runs, joint_runs
 from prolepsis.fluents.contact import is_stuff
 from prolepsis.fluents.intervals import close_gaps, hysteresis, mask_of, ticks_of, union
 from prolepsis.fluents.kinematics import climb_accelerations, climb_speeds, heights
@@ -86,7 +86,7 @@ def lifting_forces(observation: Observation) -> dict[int, FloatArray]:
 def _held(observation: Observation, unit: int) -> BoolArray:
     """Return whether something supports, grips or is joined to a unit, at each tick, shape (T,)."""
     several = [stretches for _, stretches in observation.of(supporters).get(unit, [])]
-    several += [stretches for pair, stretches in observation.of(bond_runs).items() if unit in pair]
+    several += [stretches for pair, stretches in observation.of(joint_runs).items() if unit in pair]
     several += [stretches for (_, held), stretches in observation.of(attachment_runs).items() if held == unit]
     return mask_of(union(several), observation.tick_count)
 

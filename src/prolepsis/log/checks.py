@@ -51,18 +51,18 @@ def check_log(log: Log) -> None:
     if lengths.size and np.abs(lengths - 1.0).max() > UNIT:
         raise ValueError("poses: a quaternion is not of unit length")
     _check_range("carrier", log.carrier, -1, count)
-    contacts, bonds, particles = log.contacts, log.bonds, log.particles
+    contacts, joints, particles = log.contacts, log.joints, log.particles
     _check_ascending("contacts", contacts.tick, ticks)
     for name in ("force", "normal", "point", "peak"):
         _check_numbers(f"contacts: {name}", getattr(contacts, name))
     for what, table, names in (
         ("contacts", contacts, ("a", "b")),
-        ("bonds", bonds, ("a", "b")),
+        ("joints", joints, ("a", "b")),
     ):
         for name in names:
             _check_range(f"{what}: {name}", getattr(table, name), 0, count)
-    _check_range("bonds: start", bonds.start, 0, ticks + 1)
-    _check_range("bonds: end", bonds.end, 0, ticks + 1)
+    _check_range("joints: start", joints.start, 0, ticks + 1)
+    _check_range("joints: end", joints.end, 0, ticks + 1)
     for name in ("position", "mass", "volume"):
         _check_numbers(f"particles: {name}", getattr(particles, name))
     for name, column in particles.columns.items():

@@ -24,7 +24,7 @@ HEAD = "log.json"
 """Tick, gravity, things, actions and the spacing of the particles: what is no column."""
 _EXACTLY = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
 _TICKS, _POSES, _CONTACTS = "ticks.parquet", "poses.parquet", "contacts.parquet"
-_BONDS, _HAPPENINGS = "bonds.parquet", "happenings_{}.parquet"
+_JOINTS, _HAPPENINGS = "joints.parquet", "happenings_{}.parquet"
 _FRAMES, _KINDS, _PLACES = "particle_frames.parquet", "particle_kinds.parquet", "particles.parquet"
 _OWN = "particle_columns.parquet"
 
@@ -119,7 +119,7 @@ def _tables_of(log: Log) -> Iterator[tuple[str, tables.Columns, tables.Kinds]]:
     yield _TICKS, ticks, dict.fromkeys(ticks, "double")
     yield _POSES, tables.pose_columns(log.poses, log.carrier), tables.POSES
     yield _CONTACTS, tables.contact_columns(log.contacts), tables.CONTACTS
-    yield _BONDS, tables.bond_columns(log.bonds), tables.BONDS
+    yield _JOINTS, tables.joint_columns(log.joints), tables.JOINTS
     for type, each in sorted(log.happenings.items()):
         yield (
             _HAPPENINGS.format(type),
@@ -148,7 +148,7 @@ def read_log_files(path: Path) -> Log:
         check_types(head.happenings)
         reported = [_HAPPENINGS.format(type) for type in head.happenings]
         wet = (_FRAMES, _KINDS, _PLACES, *((_OWN,) if head.particles.columns else ())) if head.particles else ()
-        names = (_TICKS, _POSES, _CONTACTS, _BONDS, *reported, *wet)
+        names = (_TICKS, _POSES, _CONTACTS, _JOINTS, *reported, *wet)
         tables.check_unpacked_sizes(path / name for name in names)
         ticks = tables.read_table(path / _TICKS)
         time = ticks.pop("time")
@@ -160,7 +160,7 @@ def read_log_files(path: Path) -> Log:
             poses=poses,
             carrier=carrier,
             contacts=tables.contacts_from(tables.read_table(path / _CONTACTS, tables.CONTACTS)),
-            bonds=tables.bonds_from(tables.read_table(path / _BONDS, tables.BONDS)),
+            joints=tables.joints_from(tables.read_table(path / _JOINTS, tables.JOINTS)),
             happenings={type: _happenings(path, type, each) for type, each in head.happenings.items()},
             particles=_particles(head.particles, path, len(things), len(time)),
             channels=ticks,

@@ -51,8 +51,8 @@ class Contacts:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Bonds:
-    """Permanent or switched joints between things (a weld, a hinge, adhesion): one row an interval."""
+class Joints:
+    """What holds two things together, for good or for a while (a weld, a hinge, adhesion): one row an interval."""
 
     a: IntArray = field(default_factory=_no_rows)
     """Index of the holding thing, shape (B,)."""
@@ -66,10 +66,10 @@ class Bonds:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Detachments:
-    """Joints of breakable things that gave way, accumulated between ticks."""
+    """Bonds of breakable things that gave way, edges between pieces of a shell: accumulated between ticks."""
 
     tick: IntArray = field(default_factory=_no_rows)
-    """Tick within which the joint detached, shape (D,), ascending."""
+    """Tick within which the bond detached, shape (D,), ascending."""
     thing: IntArray = field(default_factory=_no_rows)
     """Index of the whole that is breaking (``egg1``), shape (D,)."""
     a: IntArray = field(default_factory=_no_rows)
@@ -77,7 +77,7 @@ class Detachments:
     b: IntArray = field(default_factory=_no_rows)
     """Index of the second piece, shape (D,)."""
     force: FloatArray = field(default_factory=lambda: np.zeros(0))
-    """Greatest contact force on the thing when the joint gave way [N], shape (D,)."""
+    """Greatest contact force on the thing when the bond gave way [N], shape (D,)."""
 
     @classmethod
     def of(cls, happenings: Happenings | None) -> Detachments:
@@ -154,7 +154,7 @@ class Log:
     fragment, and -1 where the thing is no body of its own (a broken whole, a stuff in several blobs)."""
     contacts: Contacts
     """Touching pairs with forces."""
-    bonds: Bonds = Bonds()
+    joints: Joints = Joints()
     """Joints between things."""
     happenings: Mapping[str, Happenings] = field(default_factory=dict[str, Happenings])
     """What kinds of matter reported, by type: a ``detachment`` is one."""

@@ -15,7 +15,7 @@ import pyarrow.parquet as parquet  # pyright: ignore[reportMissingTypeStubs]
 from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.log import particle_tables
 from prolepsis.log.happenings import Happenings
-from prolepsis.log.log import Bonds, Contacts
+from prolepsis.log.log import Contacts, Joints
 from prolepsis.terms.errors import InputError, LogError, brief
 
 Columns = Mapping[str, npt.NDArray[Any]]
@@ -42,7 +42,7 @@ _TOUCHING = tuple(f"{name}_{axis}" for name in _VECTORS for axis in "xyz")
 
 POSES: Kinds = {"thing": "int64", "carrier": "int64", **dict.fromkeys(POSE_COLUMNS, "double")}
 CONTACTS: Kinds = {**dict.fromkeys(("tick", "a", "b"), "int64"), **dict.fromkeys((*_TOUCHING, "peak"), "double")}
-BONDS: Kinds = dict.fromkeys(("a", "b", "start", "end"), "int64")
+JOINTS: Kinds = dict.fromkeys(("a", "b", "start", "end"), "int64")
 
 
 def write_table(file: Path, columns: Columns, kinds: Kinds | None = None) -> int:
@@ -227,14 +227,14 @@ def contacts_from(columns: Columns) -> Contacts:
     return Contacts(tick=columns["tick"], a=columns["a"], b=columns["b"], peak=columns["peak"], **vectors)
 
 
-def bond_columns(bonds: Bonds) -> Columns:
+def joint_columns(joints: Joints) -> Columns:
     """Return joints between things as columns."""
-    return {"a": bonds.a, "b": bonds.b, "start": bonds.start, "end": bonds.end}
+    return {"a": joints.a, "b": joints.b, "start": joints.start, "end": joints.end}
 
 
-def bonds_from(columns: Columns) -> Bonds:
+def joints_from(columns: Columns) -> Joints:
     """Return the joints whose columns these are."""
-    return Bonds(a=columns["a"], b=columns["b"], start=columns["start"], end=columns["end"])
+    return Joints(a=columns["a"], b=columns["b"], start=columns["start"], end=columns["end"])
 
 
 def happening_columns(happenings: Happenings) -> Columns:
