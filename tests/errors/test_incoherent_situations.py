@@ -94,7 +94,7 @@ ARGUMENTS = {
     "robot": "hand1",
     "part": "top",
     "displacement": "[0.05, 0, 0]",
-    "place": "[0.1, 0.1]",
+    "position": "[0.1, 0.1]",
     "file": "'absent.csv'",
 }
 

@@ -146,8 +146,8 @@ def test_parquet_tells_the_same_as_csv(tmp_path: Path) -> None:
     write(tmp_path / "a.csv", {**FULL, **turns})
     parquet.write_table(csv.read_csv(tmp_path / "a.csv"), tmp_path / "a.parquet")  # pyright: ignore
     first, second = (read_recording(tmp_path / f"a.{kind}", []) for kind in ("csv", "parquet"))
-    assert first.ways is not None and second.ways is not None and first.orientations is not None
-    assert (first.ways == second.ways).all() and (first.time == second.time).all()
+    assert first.displacements is not None and second.displacements is not None and first.orientations is not None
+    assert (first.displacements == second.displacements).all() and (first.time == second.time).all()
     assert np.linalg.norm(first.orientations, axis=1) == pytest.approx(1.0)
 
 

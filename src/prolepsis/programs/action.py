@@ -33,7 +33,7 @@ KINDS: Mapping[str, str] = {
     "rate": "[rad/s]",
     "count": "[1]",
     "displacement": "list of three lengths along the world's axes [m]",
-    "place": "list of two lengths along the world's axes [m]",
+    "position": "list of two lengths along the world's axes [m]",
     "file": "name of a file, such as 'wipe.csv', seen from the scenario",
 }
 """What an argument of an action may be, with its unit."""
@@ -69,7 +69,7 @@ GREATEST: Mapping[str, float] = {
     "count": 100.0,
     "length": 100.0,
     "displacement": 100.0,
-    "place": 100.0,
+    "position": 100.0,
     "duration": 86_400.0,
 }
 """Greatest size of some kinds, in SI units: what the hand cannot follow, or takes more than a day, is refused."""
@@ -155,7 +155,7 @@ def action(
 
 PARTS = ("edge", "top")
 """Where something may be hit."""
-LISTS = {"displacement": (3, "[0.2, 0, 0.1]"), "place": (2, "[0.5, -0.2]")}
+LISTS = {"displacement": (3, "[0.2, 0, 0.1]"), "position": (2, "[0.5, -0.2]")}
 """Kinds that are lists: how many numbers, and an example."""
 ROLES = {"hand": "Gripper", "robot": "Robot"}
 """Role of what an argument may name."""

@@ -1,4 +1,4 @@
-"""Following: a hand goes along given places and turns, or anywhere by a free way, as fast as its joints may."""
+"""Following: a hand goes along given positions and rotations, or anywhere by a free path, as fast as its joints may."""
 
 from __future__ import annotations
 
@@ -14,65 +14,65 @@ from prolepsis.programs.turning import TICK
 from prolepsis.robots.commands import ActionFailedError, Arm, ArmTarget, Behaviour, HandTarget, Sense, Way
 
 KNOTS = 40
-"""Ticks between two places at which the joints of a given course are computed."""
+"""Ticks between two positions at which the joints of a given course are computed."""
 
 
-def follow(hand: Thing, sense: Sense, offsets: FloatArray, turns: FloatArray) -> Behaviour:
-    """Go along places and turns, one a tick, each shape (n, 3); slower where the joints of an arm cannot follow.
+def follow(hand: Thing, sense: Sense, offsets: FloatArray, rotations: FloatArray) -> Behaviour:
+    """Go along positions and rotations, one a tick, each shape (n, 3); slower where the joints of an arm cannot follow.
 
     Raises:
-        ActionFailedError: If the arm cannot get there, or is pressed against something on the way.
+        ActionFailedError: If the arm cannot get there, or is pressed against something on its path.
     """
     here = sense.hands[hand.name]
     if here.arm is None:
         velocities = np.diff(offsets, axis=0, prepend=[here.offset]) / TICK
-        spins = np.diff(turns, axis=0, prepend=[here.turn]) / TICK
-        for offset, velocity, turn, spin in zip(offsets, velocities, turns, spins, strict=True):
+        spins = np.diff(rotations, axis=0, prepend=[here.turn]) / TICK
+        for offset, velocity, rotation, spin in zip(offsets, velocities, rotations, spins, strict=True):
             sense = yield (
                 HandTarget(
                     hand=hand.name,
                     offset=triple(offset),
                     velocity=triple(velocity),
-                    turn=triple(turn),
+                    turn=triple(rotation),
                     spin=triple(spin),
                 ),
             )
         return sense
     knots = np.unique(np.append(np.arange(KNOTS - 1, len(offsets), KNOTS), len(offsets) - 1))
-    way = here.arm.path(offsets[knots], turns[knots])
-    _refuse(hand, way)
+    path = here.arm.path(offsets[knots], rotations[knots])
+    _refuse(hand, path)
     times = np.concatenate([[0.0], (knots + 1) * TICK])
-    points = np.concatenate([[here.arm.joints], way.joints])
+    points = np.concatenate([[here.arm.joints], path.joints])
     course = _spline(times, points)
     duration = float(times[-1])
     count = max(round(duration * _stretch(course, duration, here.arm) / TICK), 1)
     moments = np.asarray(np.arange(1, count + 1) * (duration / count), dtype=np.float64)
     joints, rates = course(moments), course(moments, 1) * (duration / (count * TICK))
-    places = np.minimum((moments / TICK).astype(int), len(offsets)) - 1
+    indices = np.minimum((moments / TICK).astype(int), len(offsets)) - 1
     for k in range(count):
-        p = max(int(places[k]), 0)
-        sense = yield (_target(hand, joints[k], rates[k], offsets[p], turns[p]),)
+        p = max(int(indices[k]), 0)
+        sense = yield (_target(hand, joints[k], rates[k], offsets[p], rotations[p]),)
         _refuse_bump(hand, sense)
-    return (yield (_target(hand, joints[-1], 0 * rates[-1], offsets[-1], turns[-1]),))
+    return (yield (_target(hand, joints[-1], 0 * rates[-1], offsets[-1], rotations[-1]),))
 
 
 def go(
-    hand: Thing, sense: Sense, offset: Triple, turn: Triple, ignoring: Collection[str], held: str | None = None
+    hand: Thing, sense: Sense, offset: Triple, rotation: Triple, ignoring: Collection[str], held: str | None = None
 ) -> Behaviour:
-    """Go to a place by any way on which the arm, and what it holds, touches nothing but what is ignored.
+    """Go to a pose by any path on which the arm, and what it holds, touches nothing but what is ignored.
 
     Raises:
-        ActionFailedError: If there is no such way, or the arm is pressed against something on it.
+        ActionFailedError: If there is no such path, or the arm is pressed against something on it.
     """
     arm = sense.hands[hand.name].arm
     assert arm is not None, "a hand that flies goes straight"
-    way = arm.way(offset, turn, ignoring, held=held)
-    _refuse(hand, way)
-    for start, end in zip(way.joints[:-1], way.joints[1:], strict=True):
+    path = arm.way(offset, rotation, ignoring, held=held)
+    _refuse(hand, path)
+    for start, end in zip(path.joints[:-1], path.joints[1:], strict=True):
         step = end - start
         duration = least_time(np.abs(step), arm.speeds, arm.accelerations)
         for share, rate in least_jerk(duration):
-            sense = yield (_target(hand, start + share * step, rate * step, offset, turn),)
+            sense = yield (_target(hand, start + share * step, rate * step, offset, rotation),)
             _refuse_bump(hand, sense)
     return sense
 
@@ -94,19 +94,19 @@ def _stretch(course: Callable[..., FloatArray], duration: float, arm: Arm) -> fl
     return max(1.0, float(speeds.max()), float(np.sqrt(accelerations.max())))
 
 
-def _target(hand: Thing, joints: FloatArray, rates: FloatArray, offset: object, turn: object) -> ArmTarget:
+def _target(hand: Thing, joints: FloatArray, rates: FloatArray, offset: object, rotation: object) -> ArmTarget:
     return ArmTarget(
         hand=hand.name,
         joints=tuple(joints.tolist()),
         speeds=tuple(rates.tolist()),
         offset=triple(offset),
-        turn=triple(turn),
+        turn=triple(rotation),
     )
 
 
-def _refuse(hand: Thing, way: Way) -> None:
-    if way.problem:
-        raise ActionFailedError(way.problem, f"{hand.name}: {way.detail}")
+def _refuse(hand: Thing, path: Way) -> None:
+    if path.problem:
+        raise ActionFailedError(path.problem, f"{hand.name}: {path.detail}")
 
 
 def _refuse_bump(hand: Thing, sense: Sense) -> None:

@@ -43,8 +43,8 @@ class GraspPose:
     """A pose of the hand at which an object is between its pads."""
 
     offset: Triple
-    """Of the hand's frame from its first place [m]."""
-    turn: Triple
+    """Of the hand's frame from its first position [m]."""
+    rotation: Triple
     """Yaw, pitch and roll of the hand [rad]."""
     width: float
     """Extent of the object between the pads [m]."""
@@ -52,7 +52,7 @@ class GraspPose:
     """Unit vector from the palm to the fingertips, in the world."""
 
     def before(self, distance: float) -> Triple:
-        """Return the place that is ``distance`` [m] before it, along the hand's axis."""
+        """Return the displacement that is ``distance`` [m] before it, along the hand's axis."""
         x, y, z = (o - distance * f for o, f in zip(self.offset, self.forward, strict=True))
         return (x, y, z)
 
@@ -89,22 +89,22 @@ def wrapped(angle: float) -> float:
     return (angle + math.pi) % (2 * math.pi) - math.pi
 
 
-def way_to(hand: Thing, object: Thing, sense: Sense, height: float = 0.0) -> FloatArray:
-    """Return the way from a hand to a place [m], shape (3,): ``height`` over the middle of an object."""
+def displacement_to(hand: Thing, object: Thing, sense: Sense, height: float = 0.0) -> FloatArray:
+    """Return the displacement from a hand to ``height`` [m] over the middle of an object [m], shape (3,)."""
     seen = as_seen(object, sense)
-    place = np.asarray(seen.position) + middle(seen) + (0.0, 0.0, height)
-    return place - np.asarray(sense.hands[hand.name].position)
+    position = np.asarray(seen.position) + middle(seen) + (0.0, 0.0, height)
+    return position - np.asarray(sense.hands[hand.name].position)
 
 
 def grasp_as_turned(hand: Thing, object: Thing, sense: Sense, height: float) -> GraspPose:
     """Return the grasp pose for which the hand need not turn."""
     here = sense.hands[hand.name]
     width = grasping_width(here.orientation, as_seen(object, sense))
-    way = way_to(hand, object, sense, height)
+    displacement = displacement_to(hand, object, sense, height)
     forward = rotate(here.orientation, (1.0, 0.0, 0.0))
     if here.arm is not None:
-        way = way - here.arm.pad_shift(width) * forward
-    return GraspPose(offset=_sum(here.offset, way), turn=here.turn, width=width, forward=triple(forward))
+        displacement = displacement - here.arm.pad_shift(width) * forward
+    return GraspPose(offset=_sum(here.offset, displacement), rotation=here.turn, width=width, forward=triple(forward))
 
 
 def grasp_poses(
@@ -116,9 +116,9 @@ def grasp_poses(
     """
     here = sense.hands[hand.name]
     seen = as_seen(object, sense)
-    place = np.asarray(seen.position) + middle(seen) + (0.0, 0.0, height)
+    position = np.asarray(seen.position) + middle(seen) + (0.0, 0.0, height)
     first = np.asarray(here.position) - np.asarray(here.offset)
-    bearing = arm.bearing(triple(place))
+    bearing = arm.bearing(triple(position))
     # An open vessel may be full: its content is not to be touched.
     aside = bool(seen.shape.profile) or extent_along(seen, np.array([0.0, 0.0, 1.0])) > TALL
     yaws = [bearing + math.radians(away) for away in ASIDE]
@@ -128,15 +128,15 @@ def grasp_poses(
         yaws = sorted((heading, heading + math.pi), key=lambda yaw: abs(wrapped(yaw - bearing)))
     pitches = FROM_THE_SIDE if aside else FROM_AN_END if short else FROM_ABOVE
     for pitch, roll, yaw, higher in itertools.product(pitches, ROLLS, yaws, HIGHER):
-        turn = (yaw, math.radians(pitch), math.radians(roll))
-        orientation = turned(reference, turn)
+        rotation = (yaw, math.radians(pitch), math.radians(roll))
+        orientation = turned(reference, rotation)
         width = grasping_width(orientation, seen)
         if width + LEAST_MARGIN > hand.quantities["maxOpening"]:
             continue
         forward = rotate(orientation, (1.0, 0.0, 0.0))
         ahead = np.array([forward[0], forward[1], 0.0]) / max(float(np.hypot(forward[0], forward[1])), 1e-9)
-        offset = place + (0.0, 0.0, higher) - short * ahead - arm.pad_shift(width) * forward - first
-        yield GraspPose(offset=triple(offset), turn=turn, width=width, forward=triple(forward))
+        offset = position + (0.0, 0.0, higher) - short * ahead - arm.pad_shift(width) * forward - first
+        yield GraspPose(offset=triple(offset), rotation=rotation, width=width, forward=triple(forward))
 
 
 def _axis(k: int) -> Triple:

@@ -26,11 +26,11 @@ RIM_POINTS = 16
 RIM = 1.0e-3
 """Points within this height of the topmost belong to the rim [m]."""
 CLEAR = 2.0e-3
-"""So far above the place it is looked whether anything but what is held would touch something [m]."""
+"""So far above the position it is looked whether anything but what is held would touch something [m]."""
 FACING = math.radians(80.0)
-"""The hand points at most this far away from where its shoulder sees the place."""
+"""The hand points at most this far away from where its shoulder sees the spot."""
 STRAIGHT_SPEED = 0.3
-"""Of a free hand's straight way to a place [m/s, rad/s]."""
+"""Of a free hand's straight path [m/s, rad/s]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -52,14 +52,14 @@ def spots(against: Thing, part: str) -> list[Spot]:
     up = np.array([0.0, 0.0, 1.0])
     top = against.position[2] + support(against, up)
     centre = np.asarray(against.position) + middle(against)
-    turn = matrix(against.orientation)
+    rotation = matrix(against.orientation)
     if part == "top":
         # What is upright and hollow is met on the ground inside it.
-        upright = [(1.0 if turn[2, 2] > 0 else -1.0) * z for r, z in against.shape.profile if r < RIM]
+        upright = [(1.0 if rotation[2, 2] > 0 else -1.0) * z for r, z in against.shape.profile if r < RIM]
         top = against.position[2] + max(upright) if upright else top
         return [Spot(point=(float(centre[0]), float(centre[1]), top), along=(0.0, 0.0, 0.0))]
     if against.shape.profile:
-        corners = np.asarray(against.shape.profile) * (1.0, 1.0 if turn[2, 2] > 0 else -1.0)
+        corners = np.asarray(against.shape.profile) * (1.0, 1.0 if rotation[2, 2] > 0 else -1.0)
         radius = float(corners[corners[:, 1] > corners[:, 1].max() - RIM][:, 0].mean())
         angles = np.arange(RIM_POINTS) * 2 * np.pi / RIM_POINTS
         return [
@@ -70,25 +70,25 @@ def spots(against: Thing, part: str) -> list[Spot]:
             for a in angles
         ]
     boxes = [geom for geom in against.shape.geoms if geom.type == "box"]
-    if not boxes or turn[2, 2] < 0.99:
+    if not boxes or rotation[2, 2] < 0.99:
         raise PlanError(f"plan: {against.name} has no edge that can be hit; take its top")
     box = max(boxes, key=lambda geom: geom.position[2] + geom.size[2])
     found: list[Spot] = []
     for k, sign in ((0, 1), (0, -1), (1, 1), (1, -1)):
         local = np.asarray(box.position) + sign * box.size[k] * np.eye(3)[k] + box.size[2] * up
-        place, along = np.asarray(against.position) + turn @ local, turn[:, 1 - k]
-        found.append(Spot(point=(float(place[0]), float(place[1]), top), along=triple(along)))
+        position, along = np.asarray(against.position) + rotation @ local, rotation[:, 1 - k]
+        found.append(Spot(point=(float(position[0]), float(position[1]), top), along=triple(along)))
     return found
 
 
-def hand_places(hand: HandSense, held: Thing, spot: Spot, reference: Quaternion) -> Iterator[tuple[Triple, Triple]]:
-    """Yield places and turns of a hand at which the thing it holds touches a spot from above, natural ones first.
+def hand_poses(hand: HandSense, held: Thing, spot: Spot, reference: Quaternion) -> Iterator[tuple[Triple, Triple]]:
+    """Yield poses of a hand at which the thing it holds touches a spot from above, natural ones first.
 
     Where there is an edge, the hand points along it, so that its fingers are on both sides. A hand that flies stays
     turned as it is.
     """
     if hand.arm is None:
-        yield place_of(hand, held, spot.point, hand.orientation), hand.turn
+        yield position_of(hand, held, spot.point, hand.orientation), hand.turn
         return
     bearing = hand.arm.bearing(spot.point)
     yaws = [bearing]
@@ -98,8 +98,8 @@ def hand_places(hand: HandSense, held: Thing, spot: Spot, reference: Quaternion)
         yaws = [bearing + away for away in sorted(around, key=abs) if abs(away) <= FACING]
     for yaw in yaws:
         for pitch in PITCHES:
-            turn = (yaw, math.radians(pitch), hand.turn[2])
-            yield place_of(hand, held, spot.point, turned(reference, turn)), turn
+            rotation = (yaw, math.radians(pitch), hand.turn[2])
+            yield position_of(hand, held, spot.point, turned(reference, rotation)), rotation
 
 
 def holding(hand: Thing, held: Thing, sense: Sense) -> HandSense:
@@ -114,10 +114,10 @@ def holding(hand: Thing, held: Thing, sense: Sense) -> HandSense:
     return here
 
 
-def free_place(
+def free_pose(
     hand: Thing, held: Thing, sense: Sense, against: Thing, part: str, reference: Quaternion, windup: float
 ) -> tuple[Triple, Triple]:
-    """Return the first place and turn at which what the hand holds touches a thing and nothing else touches anything.
+    """Return the first pose at which what the hand holds touches a thing and nothing else touches anything.
 
     So it is ``windup`` [m] above as well, where the hand can get to.
 
@@ -127,17 +127,17 @@ def free_place(
     here, seen = holding(hand, held, sense), as_seen(held, sense)
     first: Way | None = None
     for spot in sorted(spots(as_seen(against, sense), part), key=lambda each: _away(here, each)):
-        for offset, turn in hand_places(here, seen, spot, reference):
+        for offset, rotation in hand_poses(here, seen, spot, reference):
             if here.arm is None:
-                return offset, turn
+                return offset, rotation
             for height in (CLEAR, windup):
                 above = (offset[0], offset[1], offset[2] + height)
-                found = here.arm.way(above, turn, {held.name}, held=held.name)
+                found = here.arm.way(above, rotation, {held.name}, held=held.name)
                 if found.problem:
                     first = first or found
                     break
             else:
-                return offset, turn
+                return offset, rotation
     reason = f"{held.name} to the {part} of {against.name} by {hand.name}"
     raise no_way(first, reason, "the hand would point backwards")
 
@@ -146,8 +146,8 @@ def _away(hand: HandSense, spot: Spot) -> float:
     return float(np.linalg.norm(np.subtract(spot.point, hand.position)))
 
 
-def place_of(hand: HandSense, held: Thing, point: Triple, orientation: Quaternion) -> Triple:
-    """Return the place of a hand, turned to ``orientation``, at which what it holds touches a point from above [m]."""
+def position_of(hand: HandSense, held: Thing, point: Triple, orientation: Quaternion) -> Triple:
+    """Return the position of a hand, turned to ``orientation``, where what it holds touches a point from above [m]."""
     spin = product(orientation, inverse(hand.orientation))
     there = replace(held, orientation=product(spin, held.orientation))
     arm = matrix(spin) @ (np.asarray(held.position) + middle(held) - np.asarray(hand.position))
@@ -156,16 +156,16 @@ def place_of(hand: HandSense, held: Thing, point: Triple, orientation: Quaternio
     return triple(goal - first)
 
 
-def move_held(hand: Thing, held: Thing, sense: Sense, offset: Triple, turn: Triple) -> Behaviour:
-    """Move a hand with what it holds to a place by any free way; a hand that flies goes straight."""
+def move_held(hand: Thing, held: Thing, sense: Sense, offset: Triple, rotation: Triple) -> Behaviour:
+    """Move a hand with what it holds to a pose by any free path; a hand that flies goes straight."""
     here = sense.hands[hand.name]
     if here.arm is not None:
-        return (yield from go(hand, sense, offset, turn, {held.name}, held.name))
-    way, spin = np.subtract(offset, here.offset), np.subtract(turn, here.turn)
-    duration = PEAK_SPEED * max(float(np.linalg.norm(way)), float(np.abs(spin).max())) / STRAIGHT_SPEED
+        return (yield from go(hand, sense, offset, rotation, {held.name}, held.name))
+    displacement, spin = np.subtract(offset, here.offset), np.subtract(rotation, here.turn)
+    duration = PEAK_SPEED * max(float(np.linalg.norm(displacement)), float(np.abs(spin).max())) / STRAIGHT_SPEED
     shares = np.array([share for share, _ in least_jerk(duration)])[:, None]
-    offsets, turns = np.asarray(here.offset) + shares * way, np.asarray(here.turn) + shares * spin
-    return (yield from follow(hand, sense, offsets, turns))
+    offsets, rotations = np.asarray(here.offset) + shares * displacement, np.asarray(here.turn) + shares * spin
+    return (yield from follow(hand, sense, offsets, rotations))
 
 
 def _depth_below(thing: Thing) -> float:

@@ -18,7 +18,7 @@ RIM = 1.0e-3
 CLEARANCE = 0.006
 """What is moved keeps this far from what is below [m]."""
 STEPS = 91
-"""Angles at which the way is checked; in between it is interpolated."""
+"""Angles at which the path is checked; in between it is interpolated."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

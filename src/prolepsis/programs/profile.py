@@ -8,20 +8,20 @@ from prolepsis.geometry.shape import FloatArray
 from prolepsis.programs.turning import TICK
 
 PEAK_SPEED, PEAK_ACCELERATION = 1.875, 5.7735
-"""Greatest speed and acceleration of the profile, over way / time and way / time^2 [1]."""
+"""Greatest speed and acceleration of the profile, over displacement / time and displacement / time^2 [1]."""
 SHORTEST = 0.05
 """Joints take at least this long [s]."""
 
 
-def least_time(ways: FloatArray, speeds: FloatArray, accelerations: FloatArray) -> float:
-    """Return the least time in which all go their ways within their greatest speeds and accelerations [s]."""
-    by_speed = float((PEAK_SPEED * ways / speeds).max())
-    by_acceleration = float((PEAK_ACCELERATION * ways / accelerations).max()) ** 0.5
+def least_time(displacements: FloatArray, speeds: FloatArray, accelerations: FloatArray) -> float:
+    """Return the least time in which all go their displacements within their greatest speeds and accelerations [s]."""
+    by_speed = float((PEAK_SPEED * displacements / speeds).max())
+    by_acceleration = float((PEAK_ACCELERATION * displacements / accelerations).max()) ** 0.5
     return max(by_speed, by_acceleration, SHORTEST)
 
 
 def least_jerk(duration: float) -> Iterator[tuple[float, float]]:
-    """Yield the share of the way [1] and its rate of change [1/s] at each tick of a motion over ``duration`` [s]."""
+    """Yield the share of the displacement [1] and its rate of change [1/s] at each tick over ``duration`` [s]."""
     count = max(round(duration / TICK), 1)
     for k in range(1, count + 1):
         s = k / count

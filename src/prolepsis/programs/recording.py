@@ -32,9 +32,9 @@ GREATEST = 1.0e6
 _COLUMN = re.compile(r"[\w ./-]{1,60}")
 UNIT_ERROR = 0.01
 """The norm of a quaternion may differ from 1 by this: its numbers are rounded."""
-PLACE, AWAY = ("x", "y", "z"), ("dx", "dy", "dz")
+POSITION, DISPLACEMENT = ("x", "y", "z"), ("dx", "dy", "dz")
 QUATERNION, ANGLES = ("qw", "qx", "qy", "qz"), ("yaw", "pitch", "roll")
-GROUPS = (PLACE, AWAY, QUATERNION, ANGLES)
+GROUPS = (POSITION, DISPLACEMENT, QUATERNION, ANGLES)
 """Columns of which a file has all or none."""
 OTHERS = ("time", "opening", "force")
 
@@ -47,9 +47,9 @@ class Recording:
     """The file."""
     time: FloatArray
     """[s], shape (n,), rising, 0 at the first row."""
-    places: FloatArray | None = None
+    positions: FloatArray | None = None
     """Of the gripper's frame in the world [m], shape (n, 3)."""
-    ways: FloatArray | None = None
+    displacements: FloatArray | None = None
     """Of the gripper's frame from where it is when the replay begins, world axes [m], shape (n, 3)."""
     orientations: FloatArray | None = None
     """Of the gripper's frame in the world, unit quaternions (w, x, y, z), shape (n, 4)."""
@@ -89,7 +89,7 @@ def read_recording(path: Path, joints: Collection[str]) -> Recording:
     _refuse_holes(path, columns, time)
     groups = {group: _group(path, columns, group) for group in GROUPS}
     driven = {name: columns[name] for name in joints if name in columns}
-    given = [", ".join(group) for group in (PLACE, AWAY) if groups[group] is not None]
+    given = [", ".join(group) for group in (POSITION, DISPLACEMENT) if groups[group] is not None]
     given += [", ".join(driven)] if driven else []
     if len(given) != 1:
         raise PlanError(
@@ -108,8 +108,8 @@ def read_recording(path: Path, joints: Collection[str]) -> Recording:
     return Recording(
         path=path,
         time=time - time[0],
-        places=groups[PLACE],
-        ways=groups[AWAY],
+        positions=groups[POSITION],
+        displacements=groups[DISPLACEMENT],
         orientations=_orientations(path, groups[QUATERNION], groups[ANGLES]),
         openings=columns.get("opening"),
         forces=columns.get("force"),

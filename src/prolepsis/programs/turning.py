@@ -18,7 +18,7 @@ def course(start: float, end: float, rate: float) -> FloatArray:
     if away == 0.0:
         return np.array([end])
     easing = min(EASING, away / rate)
-    # The speed rises and falls along a smooth step, so that easing in and out covers half the way of full speed.
+    # The speed rises and falls along a smooth step, so that easing in and out covers half the angle of full speed.
     time = np.arange(0.5, max(round((away / rate + easing) / TICK), 1)) * TICK
     share = np.clip(np.minimum(time, time[::-1]) / easing, 0.0, 1.0)
     speed: FloatArray = share * share * (3.0 - 2.0 * share)

@@ -34,22 +34,22 @@ SHORTS = tuple(0.001 * k for k in range(12, 37, 2))
 class HandPose:
     """Where a hand is, in the world."""
 
-    place: FloatArray
+    position: FloatArray
     """[m], shape (3,)."""
-    turn: FloatArray
+    rotation: FloatArray
     """Its axes as columns, shape (3, 3)."""
 
     def seen(self, hand: HandSense, reference: Quaternion) -> tuple[Triple, Triple]:
-        """Return it as displacement from the hand's first place [m] and as yaw, pitch and roll [rad]."""
+        """Return it as displacement from the hand's first position [m] and as yaw, pitch and roll [rad]."""
         first = np.asarray(hand.position) - np.asarray(hand.offset)
-        return triple(self.place - first), turn_of(reference, quaternion_of(self.turn))
+        return triple(self.position - first), turn_of(reference, quaternion_of(self.rotation))
 
     def moved(self, about: FloatArray, axis: FloatArray, angle: float, by: FloatArray) -> HandPose:
         """Return it turned about an axis through a point by ``angle`` [rad], then moved ``by`` [m]."""
         half = math.sin(angle / 2)
         x, y, z = (float(v) * half for v in axis)
-        turn = matrix((math.cos(angle / 2), x, y, z))
-        return HandPose(place=about + turn @ (self.place - about) + by, turn=turn @ self.turn)
+        rotation = matrix((math.cos(angle / 2), x, y, z))
+        return HandPose(position=about + rotation @ (self.position - about) + by, rotation=rotation @ self.rotation)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -65,25 +65,25 @@ class HeldOut:
     """Unit vector from pad to pad, level, shape (3,)."""
 
     def second(self, short: float, pad_shift: float) -> Iterator[HandPose]:
-        """Yield places of the second hand whose pads' middle is ``short`` [m] from the thing's: a mirror image."""
-        ahead = self.first.turn[:, 0]
+        """Yield poses of the second hand whose pads' middle is ``short`` [m] from the thing's: a mirror image."""
+        ahead = self.first.rotation[:, 0]
         forward = ahead - 2 * float(ahead @ self.across) * self.across
         for pinch in (self.pinch, -self.pinch):
-            turn = np.stack([forward, pinch, np.cross(forward, pinch)], axis=1)
-            yield HandPose(place=self.middle + short * self.across - pad_shift * forward, turn=turn)
+            rotation = np.stack([forward, pinch, np.cross(forward, pinch)], axis=1)
+            yield HandPose(position=self.middle + short * self.across - pad_shift * forward, rotation=rotation)
 
 
 def holds(hand: HandSense, other: HandSense, object: Thing, reference: Quaternion) -> Iterator[HeldOut]:
     """Yield how a hand may hold out a thing that it holds, as seen now, by one end: level, across the robot's front."""
-    turn = matrix(hand.orientation)
+    rotation = matrix(hand.orientation)
     centre = np.asarray(object.position) + middle(object)
     along = longest_axis(object)
     along = along if (centre - hand.position) @ along > 0 else -along
-    along = along - float(along @ turn[:, 1]) * turn[:, 1]
-    free_end = turn.T @ (along / np.linalg.norm(along))
+    along = along - float(along @ rotation[:, 1]) * rotation[:, 1]
+    free_end = rotation.T @ (along / np.linalg.norm(along))
     pinched = np.array([0.0, 1.0, 0.0])
     own = np.stack([free_end, pinched, np.cross(free_end, pinched)], axis=1)
-    arm = turn.T @ (centre - hand.position)
+    arm = rotation.T @ (centre - hand.position)
     yaw = yaw_of(reference)
     left = np.array([-math.sin(yaw), math.cos(yaw), 0.0])
     side = 1.0 if np.subtract(other.position, hand.position) @ left > 0 else -1.0
@@ -95,7 +95,7 @@ def holds(hand: HandSense, other: HandSense, object: Thing, reference: Quaternio
                 axes = np.stack([across, pinch, np.cross(across, pinch)], axis=1) @ own.T
                 if axes[2, 0] < 0:
                     there = centre + (0.0, 0.0, lifted)
-                    first = HandPose(place=there - axes @ arm, turn=axes)
+                    first = HandPose(position=there - axes @ arm, rotation=axes)
                     yield HeldOut(first=first, middle=there, across=across, pinch=pinch)
 
 
@@ -130,20 +130,20 @@ def hold_out(
         reference: The first orientation of the hand.
 
     Raises:
-        ActionFailedError: If there is no such place.
+        ActionFailedError: If there is no such pose.
     """
     here, there = sense.hands[hand.name], sense.hands[other.name]
     assert here.arm is not None and there.arm is not None
     first: Way | None = None
     for held in holds(here, there, seen, reference):
-        place = held.first.seen(here, reference)
-        found = here.arm.way(*place, touching, held=seen.name)
+        pose = held.first.seen(here, reference)
+        found = here.arm.way(*pose, touching, held=seen.name)
         if not found.problem:
             for second in held.second(short, there.arm.pad_shift(0.0)):
                 found = there.arm.way(*second.seen(there, reference), touching, 0.0)
                 # Both arms will be elsewhere than now: whether they touch is looked at then.
                 if found.problem != "unreachable":
-                    sense = yield from go(hand, sense, *place, touching, seen.name)
+                    sense = yield from go(hand, sense, *pose, touching, seen.name)
                     return held, sense
         first = first or found
     what = f"{seen.name} between {hand.name} and {other.name}"

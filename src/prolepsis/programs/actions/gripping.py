@@ -44,8 +44,8 @@ def grasp(
     """Reach for the object's middle, a height above or short of it, unless the hand is there; close with a force."""
     pose = grasp_as_turned(hand, object, sense, height)
     here = sense.hands[hand.name]
-    way = np.subtract(pose.offset, here.offset)
-    if np.abs(way).max() > CLEARANCE or here.opening < pose.width:
+    displacement = np.subtract(pose.offset, here.offset)
+    if np.abs(displacement).max() > CLEARANCE or here.opening < pose.width:
         aside = {name: value for name, value in (("height", height), ("short", short)) if value}
         sense = yield from nested("reach", scene, sense, hand=hand, object=object, **aside)
         pose = grasp_as_turned(hand, object, sense, height)

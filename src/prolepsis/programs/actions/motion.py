@@ -28,7 +28,7 @@ from prolepsis.scene.scene import Scene, reference_of, robot_of_gripper
 from prolepsis.terms.errors import PlanError
 
 ARRIVED = 1.0e-4
-"""Shorter ways are not worth a move [m]."""
+"""Shorter displacements are not worth a move [m]."""
 TICK = 1.0e-3
 """Period of the commands [s]."""
 OPENING_SPEED = 0.2
@@ -42,7 +42,7 @@ SHORT = ParameterSpec(name="short", kind="length", default=0.0)
 
 
 def line(displacement: Triple, acceleration: float, speed: float) -> Iterator[tuple[Triple, Triple]]:
-    """Yield the way [m] and the velocity [m/s] at each tick along a line, from rest to rest, with the least jerk."""
+    """Yield displacement [m] and velocity [m/s] at each tick along a line, from rest to rest, with the least jerk."""
     x, y, z = displacement
     distance = float(np.linalg.norm(displacement))
     duration = max(PEAK_SPEED * distance / speed, (PEAK_ACCELERATION * distance / acceleration) ** 0.5)
@@ -60,20 +60,20 @@ def travel(hand: Thing, sense: Sense, displacement: Triple, acceleration: float,
         acceleration: Greatest acceleration [m/s^2].
         speed: Greatest speed [m/s].
     """
-    start, turn = sense.hands[hand.name].offset, sense.hands[hand.name].turn
+    start, rotation = sense.hands[hand.name].offset, sense.hands[hand.name].turn
     if sense.hands[hand.name].arm is not None:
         steps = np.array([step for step, _ in line(displacement, acceleration, speed)])
-        return (yield from follow(hand, sense, steps + start, np.tile(turn, (len(steps), 1))))
+        return (yield from follow(hand, sense, steps + start, np.tile(rotation, (len(steps), 1))))
     for step, velocity in line(displacement, acceleration, speed):
         offset = (start[0] + step[0], start[1] + step[1], start[2] + step[2])
-        sense = yield (HandTarget(hand=hand.name, offset=offset, velocity=velocity, turn=turn),)
+        sense = yield (HandTarget(hand=hand.name, offset=offset, velocity=velocity, turn=rotation),)
     return sense
 
 
-def travel_over(hand: Thing, sense: Sense, way: FloatArray, acceleration: float, speed: float) -> Behaviour:
-    """Move a hand by ``way`` [m], shape (3,): up as far as needed, across, and down."""
-    up, down = max(float(way[2]), 0.0), min(float(way[2]), 0.0)
-    for step in ((0.0, 0.0, up), (float(way[0]), float(way[1]), 0.0), (0.0, 0.0, down)):
+def travel_over(hand: Thing, sense: Sense, displacement: FloatArray, acceleration: float, speed: float) -> Behaviour:
+    """Move a hand by ``displacement`` [m], shape (3,): up as far as needed, across, and down."""
+    up, down = max(float(displacement[2]), 0.0), min(float(displacement[2]), 0.0)
+    for step in ((0.0, 0.0, up), (float(displacement[0]), float(displacement[1]), 0.0), (0.0, 0.0, down)):
         if any(step):
             sense = yield from travel(hand, sense, step, acceleration, speed)
     return sense
@@ -102,10 +102,10 @@ def within_workspace(scene: Scene, *, hand: Thing, object: Thing, **_: object) -
     if robot_of_gripper(scene, hand) is not None:
         width = least_width(object) + LEAST_MARGIN
     else:
-        way = np.abs(np.asarray(object.position) - np.asarray(hand.position)).max()
-        if way > ROBOT.workspace:
+        away = np.abs(np.asarray(object.position) - np.asarray(hand.position)).max()
+        if away > ROBOT.workspace:
             raise PlanError(
-                f"plan: {object.name} is out of reach of {hand.name}: {way:.2f} m away, allowed {ROBOT.workspace:g} m"
+                f"plan: {object.name} is out of reach of {hand.name}: {away:.2f} m away, allowed {ROBOT.workspace:g} m"
             )
     if width > widest:
         raise PlanError(
@@ -126,10 +126,10 @@ def reach(
     if sense.hands[hand.name].opening < width:
         sense = yield from open_to(hand, width, sense)
         pose = grasp_as_turned(hand, object, sense, height)
-    way = np.subtract(pose.offset, sense.hands[hand.name].offset)
-    ahead = float(way @ np.asarray(pose.forward))
-    first = way - min(ahead, STANDOFF) * np.asarray(pose.forward)
-    for part in (first, way - first):
+    displacement = np.subtract(pose.offset, sense.hands[hand.name].offset)
+    ahead = float(displacement @ np.asarray(pose.forward))
+    first = displacement - min(ahead, STANDOFF) * np.asarray(pose.forward)
+    for part in (first, displacement - first):
         if np.linalg.norm(part) > ARRIVED:
             step = (float(part[0]), float(part[1]), float(part[2]))
             sense = yield from travel(hand, sense, step, 2.0, speed)
@@ -148,15 +148,15 @@ def _reach_by_arm(
         # Only the last stretch is straight: before it, the object is in the way as anything is.
         back = STANDOFF + extent_along(as_seen(object, sense), np.asarray(pose.forward)) / 2
         there, before = (pose.offset, {object.name}), (pose.before(back), set[str]())
-        for (place, ignored), opening in ((there, pose.width), (there, width), (before, width)):
-            found = arm.way(place, pose.turn, ignored, opening)
+        for (position, ignored), opening in ((there, pose.width), (there, width), (before, width)):
+            found = arm.way(position, pose.rotation, ignored, opening)
             if found.problem:
                 first = first or found
                 break
         else:
             if sense.hands[hand.name].opening < width:
                 sense = yield from open_to(hand, width, sense)
-            sense = yield from go(hand, sense, pose.before(back), pose.turn, ())
+            sense = yield from go(hand, sense, pose.before(back), pose.rotation, ())
             step = triple(np.subtract(pose.offset, pose.before(back)))
             return (yield from travel(hand, sense, step, 2.0, speed))
     if first is None:

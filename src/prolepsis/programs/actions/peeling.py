@@ -37,7 +37,7 @@ PITCHES = (23.0, 10.0, 40.0, 0.0)
 """Pitches of the second hand that are tried [degrees]."""
 ROOM = 0.030
 """The gripper is open this much wider than what it goes round, if it can be [m]."""
-WAY = 0.06
+APART = 0.06
 """It comes from so far away, and draws so far [m]."""
 DRAW_SPEED, APPROACH_SPEED = 0.05, 0.15
 """[m/s]"""
@@ -62,11 +62,11 @@ class _Shelled:
 
     def seen(self, sense: Sense) -> Thing:
         """Return the whole where its kernel is now."""
-        place, turn = sense.place(self.kernel.name), sense.orientation(self.kernel.name)
-        return replace(self.object, position=place, orientation=turn)
+        position, orientation = sense.place(self.kernel.name), sense.orientation(self.kernel.name)
+        return replace(self.object, position=position, orientation=orientation)
 
-    def way_out(self, sense: Sense, piece: Thing) -> FloatArray:
-        """Return the way from the kernel's middle to a piece [m], shape (3,)."""
+    def outward(self, sense: Sense, piece: Thing) -> FloatArray:
+        """Return the displacement from the kernel's middle to a piece [m], shape (3,)."""
         return np.subtract(sense.place(piece.name), sense.place(self.kernel.name))
 
     def covered(self, sense: Sense) -> list[Thing]:
@@ -75,7 +75,7 @@ class _Shelled:
 
     def _is_on(self, sense: Sense, piece: Thing) -> bool:
         before = float(np.linalg.norm(np.subtract(piece.position, self.kernel.position)))
-        return float(np.linalg.norm(self.way_out(sense, piece))) < before + GONE
+        return float(np.linalg.norm(self.outward(sense, piece))) < before + GONE
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -144,23 +144,24 @@ def _pinch(
     there = sense.hands[other.name]
     assert there.arm is not None
     first: Way | None = None
-    ways = {piece.name: shelled.way_out(sense, piece) for piece in shelled.covered(sense) if piece.name not in tried}
-    for name in sorted(ways, key=lambda name: abs(float(ways[name] @ held.across) - BEST)):
-        for found in _pinches(name, ways[name], other, there.arm.pad_shift, sense, shelled, held):
-            offset, turn = found.at.seen(there, reference)
-            before, _ = found.at.moved(found.at.place, held.across, 0.0, WAY * held.across).seen(there, reference)
-            way = there.arm.way(offset, turn, shelled.names, found.opening)
-            if not way.problem:
-                way = there.arm.way(before, turn, (), found.opening)
-            if not way.problem:
+    pieces = [piece for piece in shelled.covered(sense) if piece.name not in tried]
+    outward = {piece.name: shelled.outward(sense, piece) for piece in pieces}
+    for name in sorted(outward, key=lambda name: abs(float(outward[name] @ held.across) - BEST)):
+        for found in _pinches(name, outward[name], other, there.arm.pad_shift, sense, shelled, held):
+            offset, rotation = found.at.seen(there, reference)
+            before, _ = found.at.moved(found.at.position, held.across, 0.0, APART * held.across).seen(there, reference)
+            path = there.arm.way(offset, rotation, shelled.names, found.opening)
+            if not path.problem:
+                path = there.arm.way(before, rotation, (), found.opening)
+            if not path.problem:
                 return found
-            first = first or way
+            first = first or path
     return first
 
 
 def _pinches(
     name: str,
-    way: FloatArray,
+    outward: FloatArray,
     other: Thing,
     pad_shift: Callable[[float], float],
     sense: Sense,
@@ -168,8 +169,8 @@ def _pinches(
     held: HeldOut,
 ) -> Iterator[_Pinch]:
     """Yield how a piece and what is opposite may be pinched."""
-    along = float(way @ held.across)
-    aside = way - along * held.across
+    along = float(outward @ held.across)
+    aside = outward - along * held.across
     aside = aside / max(float(np.linalg.norm(aside)), 1e-9)
     if along < -BEFORE or abs(float(aside @ held.pinch)) > ASIDE:
         return
@@ -183,20 +184,20 @@ def _pinches(
         across = aside - float(aside @ ahead) * ahead
         for side in (1.0, -1.0):
             pinch = side * across / float(np.linalg.norm(across))
-            turn = np.stack([ahead, pinch, np.cross(ahead, pinch)], axis=1)
-            place = np.asarray(seen.position) + along * held.across - pad_shift(width) * ahead
-            yield _Pinch(piece=name, at=HandPose(place=place, turn=turn), width=width, opening=opening)
+            rotation = np.stack([ahead, pinch, np.cross(ahead, pinch)], axis=1)
+            position = np.asarray(seen.position) + along * held.across - pad_shift(width) * ahead
+            yield _Pinch(piece=name, at=HandPose(position=position, rotation=rotation), width=width, opening=opening)
 
 
 def _pull(
     other: Thing, sense: Sense, shelled: _Shelled, held: HeldOut, pinch: _Pinch, reference: Quaternion, force: float
 ) -> Behaviour:
     """Pinch, draw away along the free end until the kernel follows, let go, and go back."""
-    away = triple(WAY * held.across)
+    away = triple(APART * held.across)
     there = sense.hands[other.name]
-    offset, turn = pinch.at.seen(there, reference)
+    offset, rotation = pinch.at.seen(there, reference)
     sense = yield from open_to(other, pinch.opening, sense)
-    sense = yield from go(other, sense, triple(np.add(offset, away)), turn, ())
+    sense = yield from go(other, sense, triple(np.add(offset, away)), rotation, ())
     sense = yield from travel(other, sense, triple(np.negative(away)), 1.0, APPROACH_SPEED)
     sense = yield from close_from(other, pinch.width + CLEARANCE, force, sense)
     start = sense.place(shelled.kernel.name)

@@ -51,10 +51,10 @@ def _can_pour(
         return
     if max(abs(rotate(hand.orientation, axis)[2]) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))) > LEVEL:
         raise PlanError(f"plan: {hand.name} is not level, so it cannot pour; allowed: pitch 0 and roll 0, any yaw")
-    way = np.abs(np.asarray(target.position) - np.asarray(hand.position)).max()
-    if way > ROBOT.workspace:
+    away = np.abs(np.asarray(target.position) - np.asarray(hand.position)).max()
+    if away > ROBOT.workspace:
         raise PlanError(
-            f"plan: {target.name} is out of reach of {hand.name}: {way:.2f} m away, allowed {ROBOT.workspace:g} m"
+            f"plan: {target.name} is out of reach of {hand.name}: {away:.2f} m away, allowed {ROBOT.workspace:g} m"
         )
 
 
@@ -102,13 +102,13 @@ def pour(
     lifts = heights(moved, lip, below, angles, side=side, offset=offset, height=height)
     goal = np.array([middle[0], middle[1], top[:, 2].max()]) + side * offset * left
     tilted = np.array([level @ rolled(-side * a) @ lip for a in angles])
-    way = goal - tilted + lifts[:, None] * (0.0, 0.0, 1.0) - here
-    approach = travel_over(hand, sense, way[0], APPROACH_ACCELERATION, APPROACH_SPEED)
+    displacement = goal - tilted + lifts[:, None] * (0.0, 0.0, 1.0) - here
+    approach = travel_over(hand, sense, displacement[0], APPROACH_ACCELERATION, APPROACH_SPEED)
     sense = yield from as_event("bring", {"hand": hand, "target": target}, approach, sense)
-    # The way is seen from where the hand is, the commands from where they were: the servo may lag by a little.
+    # The path is seen from where the hand is, the commands from where they were: the servo may lag by a little.
     grip = product(inverse(ahead), state.orientation)
-    turns = [turn_of(reference, product(turned(ahead, (0.0, 0.0, -side * float(a) - lean)), grip)) for a in angles]
-    turning = follow(hand, sense, np.asarray(state.offset) + way, np.unwrap(turns, axis=0))
+    rotations = [turn_of(reference, product(turned(ahead, (0.0, 0.0, -side * float(a) - lean)), grip)) for a in angles]
+    turning = follow(hand, sense, np.asarray(state.offset) + displacement, np.unwrap(rotations, axis=0))
     sense = yield from as_event("tilt", {"hand": hand, "angle": round(-side * angle, 3)}, turning, sense)
     return (yield from stay(duration, sense))
 

@@ -63,25 +63,25 @@ def _can_replay(scene: Scene, *, hand: Thing, file: Path) -> None:
         if values is not None:
             _refuse_beyond(recording, values, 0.0, limit, f"{what} of {hand.name}", unit)
     for joint in joints if recording.joints else ():
-        places = recording.joints[joint.name]
+        positions = recording.joints[joint.name]
         model: Any = robot_model(scene.robots[str(robot_of_gripper(scene, hand))]).model
         number = model.joint(joint.name).id
         unit = "m" if int(model.jnt_type[number]) == int(mujoco.mjtJoint.mjJNT_SLIDE) else "rad"
         if model.jnt_limited[number]:
             low, high = (float(value) for value in model.jnt_range[number])
-            _refuse_beyond(recording, places, low, high, f"joint {joint.name}", unit)
-        _refuse_fast(recording, np.abs(np.diff(places)), joint.speed, f"joint {joint.name}", f"{unit}/s")
-    places = recording.places if recording.places is not None else recording.ways
-    if places is not None:
-        ways = np.linalg.norm(np.diff(places, axis=0), axis=1)
-        _refuse_fast(recording, ways, hand.quantities.get("maxSpeed", np.inf), hand.name, "m/s")
+            _refuse_beyond(recording, positions, low, high, f"joint {joint.name}", unit)
+        _refuse_fast(recording, np.abs(np.diff(positions)), joint.speed, f"joint {joint.name}", f"{unit}/s")
+    positions = recording.positions if recording.positions is not None else recording.displacements
+    if positions is not None:
+        displacements = np.linalg.norm(np.diff(positions, axis=0), axis=1)
+        _refuse_fast(recording, displacements, hand.quantities.get("maxSpeed", np.inf), hand.name, "m/s")
     if not joints:
         _refuse_for_free_hand(recording, hand)
 
 
 def _refuse_for_free_hand(recording: Recording, hand: Thing) -> None:
-    if recording.places is not None:
-        away = np.abs(recording.places - np.asarray(hand.position)).max(axis=1)
+    if recording.positions is not None:
+        away = np.abs(recording.positions - np.asarray(hand.position)).max(axis=1)
         wrong = np.flatnonzero(away > FREE_HAND.workspace)
         if len(wrong):
             raise PlanError(
@@ -101,8 +101,8 @@ def _refuse_beyond(recording: Recording, values: FloatArray, low: float, high: f
         raise PlanError(f"{recording.row(k)}: {what} is {values[k]:.4g} {unit}, allowed {low:.4g} to {high:.4g} {unit}")
 
 
-def _refuse_fast(recording: Recording, ways: FloatArray, limit: float, what: str, unit: str) -> None:
-    speeds = ways / np.diff(recording.time)
+def _refuse_fast(recording: Recording, displacements: FloatArray, limit: float, what: str, unit: str) -> None:
+    speeds = displacements / np.diff(recording.time)
     wrong = np.flatnonzero(speeds > limit * (1 + 1e-6))
     if len(wrong):
         k = int(wrong[0])
@@ -119,20 +119,20 @@ def replay(scene: Scene, sense: Sense, *, hand: Thing, file: Path) -> Behaviour:
         return (yield from _replay_joints(hand, sense, recording, ticks))
     here = sense.hands[hand.name]
     reference = reference_of(scene, hand)
-    rows = recording.ways
-    offsets = np.asarray(here.offset) + rows if rows is not None else _places(recording) - np.asarray(hand.position)
-    turns = _turns(recording, reference, here, ticks)
-    start, first = np.array([*here.offset, *here.turn]), np.array([*offsets[0], *turns[0]])
-    course = np.concatenate([_start(start, first), np.hstack([_smooth(recording.time, offsets)(ticks), turns[1:]])])
+    rows = recording.displacements
+    offsets = np.asarray(here.offset) + rows if rows is not None else _positions(recording) - np.asarray(hand.position)
+    rotations = _rotations(recording, reference, here, ticks)
+    start, first = np.array([*here.offset, *here.turn]), np.array([*offsets[0], *rotations[0]])
+    course = np.concatenate([_start(start, first), np.hstack([_smooth(recording.time, offsets)(ticks), rotations[1:]])])
     rates = np.diff(course, axis=0, prepend=start[None]) / TICK
     grips = _grips(recording, hand, len(course) - len(ticks))
     behind = 0.0
-    for k, (place, rate) in enumerate(zip(course, rates, strict=True)):
+    for k, (pose, rate) in enumerate(zip(course, rates, strict=True)):
         target = HandTarget(
             hand=hand.name,
-            offset=triple(place[:3]),
+            offset=triple(pose[:3]),
             velocity=triple(rate[:3]),
-            turn=triple(place[3:]),
+            turn=triple(pose[3:]),
             spin=triple(rate[3:]),
         )
         sense = yield (target, *grips.get(k, ()))
@@ -146,25 +146,27 @@ def _replay_joints(hand: Thing, sense: Sense, recording: Recording, ticks: Float
     arm = sense.hands[hand.name].arm
     assert arm is not None, "only an arm has joints"
     rows = np.stack(list(recording.joints.values()), axis=1)
-    way = rows[0] - arm.joints
-    duration = least_time(np.abs(way), arm.speeds, arm.accelerations)
-    start = np.array([arm.joints + share * way for share, _ in least_jerk(duration)])
+    displacement = rows[0] - arm.joints
+    duration = least_time(np.abs(displacement), arm.speeds, arm.accelerations)
+    start = np.array([arm.joints + share * displacement for share, _ in least_jerk(duration)])
     course = np.concatenate([start, _smooth(recording.time, rows)(ticks)])
     rates = np.diff(course, axis=0, prepend=arm.joints[None]) / TICK
     rates[-1] = 0.0
     grips = _grips(recording, hand, len(start))
     for k, (joints, rate) in enumerate(zip(course, rates, strict=True)):
-        offset, turn = arm.place(joints)
+        offset, rotation = arm.place(joints)
         speeds = tuple(map(float, rate))
-        target = ArmTarget(hand=hand.name, joints=tuple(map(float, joints)), speeds=speeds, offset=offset, turn=turn)
+        target = ArmTarget(
+            hand=hand.name, joints=tuple(map(float, joints)), speeds=speeds, offset=offset, turn=rotation
+        )
         sense = yield (target, *grips.get(k, ()))
         _refuse_behind(hand, sense, (k - len(start)) * TICK)
     return sense
 
 
-def _places(recording: Recording) -> FloatArray:
-    assert recording.places is not None
-    return recording.places
+def _positions(recording: Recording) -> FloatArray:
+    assert recording.positions is not None
+    return recording.positions
 
 
 def _smooth(time: FloatArray, rows: FloatArray) -> Any:
@@ -175,24 +177,24 @@ def _smooth(time: FloatArray, rows: FloatArray) -> Any:
     return PchipInterpolator(time, rows)
 
 
-def _turns(recording: Recording, reference: Quaternion, here: HandSense, ticks: FloatArray) -> FloatArray:
+def _rotations(recording: Recording, reference: Quaternion, here: HandSense, ticks: FloatArray) -> FloatArray:
     """Return how the hand is turned at the first row and at each tick [rad], shape (n + 1, 3), without jumps."""
     if recording.orientations is None:
         return np.tile(np.asarray(here.turn), (len(ticks) + 1, 1))
-    # Between rows some hundredths of a radian apart, the straight way between quaternions is the arc.
+    # Between rows some hundredths of a radian apart, the straight line between quaternions is the arc.
     between = _smooth(recording.time, recording.orientations)(np.concatenate([[0.0], ticks]))
     units = between / np.linalg.norm(between, axis=1)[:, None]
-    turns = [here.turn, *(turn_of(reference, (float(w), float(x), float(y), float(z))) for w, x, y, z in units)]
-    return np.unwrap(np.array(turns), axis=0)[1:]
+    rotations = [here.turn, *(turn_of(reference, (float(w), float(x), float(y), float(z))) for w, x, y, z in units)]
+    return np.unwrap(np.array(rotations), axis=0)[1:]
 
 
 def _start(start: FloatArray, first: FloatArray) -> FloatArray:
-    """Return places and turns on the way to the first row, one a tick, shape (n, 6)."""
-    way = first - start
-    longest = max(float(np.linalg.norm(way[:3])), float(np.abs(way[3:]).max()))
+    """Return positions and rotations on the path to the first row, one a tick, shape (n, 6)."""
+    displacement = first - start
+    longest = max(float(np.linalg.norm(displacement[:3])), float(np.abs(displacement[3:]).max()))
     if longest < ARRIVED:
         return np.zeros((0, 6))
-    return np.array([start + share * way for share, _ in least_jerk(PEAK_SPEED * longest / START_SPEED)])
+    return np.array([start + share * displacement for share, _ in least_jerk(PEAK_SPEED * longest / START_SPEED)])
 
 
 def _grips(recording: Recording, hand: Thing, start: int) -> dict[int, tuple[Command, ...]]:

@@ -66,17 +66,17 @@ def _take(other: Thing, sense: Sense, object: Thing, held: HeldOut, reference: Q
     first: Way | None = None
     for short in SHORTS:
         for second in held.second(short, there.arm.pad_shift(width)):
-            offset, turn = second.seen(there, reference)
-            back = HandPose(place=second.place - STANDOFF * second.turn[:, 0], turn=second.turn)
+            offset, rotation = second.seen(there, reference)
+            back = HandPose(position=second.position - STANDOFF * second.rotation[:, 0], rotation=second.rotation)
             before, _ = back.seen(there, reference)
-            found = there.arm.way(offset, turn, {object.name}, width)
+            found = there.arm.way(offset, rotation, {object.name}, width)
             if not found.problem:
-                found = there.arm.way(offset, turn, {object.name}, opening)
+                found = there.arm.way(offset, rotation, {object.name}, opening)
             if not found.problem:
-                found = there.arm.way(before, turn, (), opening)
+                found = there.arm.way(before, rotation, (), opening)
             if not found.problem:
                 sense = yield from open_to(other, opening, sense)
-                sense = yield from go(other, sense, before, turn, ())
+                sense = yield from go(other, sense, before, rotation, ())
                 sense = yield from travel(other, sense, triple(np.subtract(offset, before)), 1.0, 0.1)
                 sense = yield from close_from(other, width + CLEARANCE, force, sense)
                 return second, sense
@@ -107,14 +107,14 @@ def _draw_apart(
             start.moved(top, axis, -angle / 2 * turned, side * apart * distance / 2 * held.across)
             for turned, apart in shares.tolist()
         ]
-        turns = [turn_of(reference, quaternion_of(step.turn)) for step in steps]
-        return np.array([step.place for step in steps]), np.array(turns)
+        rotations = [turn_of(reference, quaternion_of(step.rotation)) for step in steps]
+        return np.array([step.position for step in steps]), np.array(rotations)
 
     def maker(hand: Thing, start: HandPose, side: float) -> Maker:
-        places, turns = course(start, side)
+        positions, rotations = course(start, side)
         here = sense.hands[hand.name]
         first = np.asarray(here.position) - np.asarray(here.offset)
-        return lambda now: follow(hand, now, places - first, turns)
+        return lambda now: follow(hand, now, positions - first, rotations)
 
     makers = [maker(hand, start, side) for (hand, start), side in zip(hands, (-1.0, 1.0), strict=True)]
     return (yield from all_together(makers)(sense))

@@ -12,7 +12,7 @@ from prolepsis.programs.action import HAND, HELD, ParameterSpec, action
 from prolepsis.programs.actions.motion import stay, travel, travel_over
 from prolepsis.programs.following import follow
 from prolepsis.programs.grasping import as_seen
-from prolepsis.programs.holding import free_place, move_held, spots
+from prolepsis.programs.holding import free_pose, move_held, spots
 from prolepsis.programs.turning import TICK
 from prolepsis.robots.commands import ActionFailedError, Behaviour, HandTarget, Note, Sense
 from prolepsis.scene.extent import middle, support
@@ -55,12 +55,14 @@ def hit(
 ) -> Behaviour:
     """Hit what the hand holds from above against the edge or the top of something, at a speed; draw back at once."""
     windup = max(LEAST_WINDUP, speed * speed / ACCELERATION)
-    offset, turn = free_place(hand, object, sense, against, part, reference_of(scene, hand), windup)
+    offset, rotation = free_pose(hand, object, sense, against, part, reference_of(scene, hand), windup)
     above = (offset[0], offset[1], offset[2] + windup)
-    sense = yield from move_held(hand, object, sense, above, turn)
+    sense = yield from move_held(hand, object, sense, above, rotation)
     sense = yield from stay(0.2, sense)
     depths = _blow(windup + TOO_DEEP, speed)
-    blow = follow(hand, sense, np.asarray(above) - depths[:, None] * (0.0, 0.0, 1.0), np.tile(turn, (len(depths), 1)))
+    blow = follow(
+        hand, sense, np.asarray(above) - depths[:, None] * (0.0, 0.0, 1.0), np.tile(rotation, (len(depths), 1))
+    )
     made = next(blow)
     while True:
         met = -sense.hands[hand.name].velocity()[2]
@@ -114,9 +116,9 @@ def press(
     duration: float,
 ) -> Behaviour:
     """Press what the hand holds from above on something with a force, for a while, and draw back."""
-    offset, turn = free_place(hand, object, sense, against, part, reference_of(scene, hand), APPROACH_HEIGHT)
+    offset, rotation = free_pose(hand, object, sense, against, part, reference_of(scene, hand), APPROACH_HEIGHT)
     above = (offset[0], offset[1], offset[2] + APPROACH_HEIGHT)
-    sense = yield from move_held(hand, object, sense, above, turn)
+    sense = yield from move_held(hand, object, sense, above, rotation)
     sense = yield from stay(0.2, sense)
     sense = yield from push_down(hand, sense, force, duration)
     return (yield from travel(hand, sense, (0.0, 0.0, BACK), 2.0, BACK_SPEED))
@@ -134,8 +136,8 @@ def bring(scene: Scene, sense: Sense, *, hand: Thing, target: Thing, height: flo
     seen = as_seen(target, sense)
     x, y, _ = np.asarray(seen.position) + middle(seen)
     top = seen.position[2] + support(seen, np.array([0.0, 0.0, 1.0]))
-    way = np.subtract((x, y, top + height), here.position)
-    return (yield from travel_over(hand, sense, way, BRING_ACCELERATION, BRING_SPEED))
+    displacement = np.subtract((x, y, top + height), here.position)
+    return (yield from travel_over(hand, sense, displacement, BRING_ACCELERATION, BRING_SPEED))
 
 
 def push_down(hand: Thing, sense: Sense, force: float, duration: float) -> Behaviour:
@@ -157,7 +159,7 @@ def push_down(hand: Thing, sense: Sense, force: float, duration: float) -> Behav
         else:
             sinking = APPROACH_SPEED
         depth += sinking * TICK
-        place: Triple = (start.offset[0], start.offset[1], start.offset[2] - depth)
-        target = HandTarget(hand=hand.name, offset=place, velocity=(0.0, 0.0, -sinking), turn=start.turn)
+        position: Triple = (start.offset[0], start.offset[1], start.offset[2] - depth)
+        target = HandTarget(hand=hand.name, offset=position, velocity=(0.0, 0.0, -sinking), turn=start.turn)
         sense = yield (target, Note(evidence={"force": greatest}))
     return sense

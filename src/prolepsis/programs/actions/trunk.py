@@ -19,15 +19,15 @@ def move_joints(robot: Thing, sense: Sense, goals: Mapping[str, float], speed: f
     """Move joints of a robot's trunk from rest to rest, all in the same time, as fast as they may, or at ``speed``."""
     here = sense.robots[robot.name]
     starts = np.array([here.joints[name] for name in goals])
-    ways = np.array(list(goals.values())) - starts
+    displacements = np.array(list(goals.values())) - starts
     speeds = np.array([here.speeds[name] if speed is None else min(here.speeds[name], speed) for name in goals])
-    duration = least_time(np.abs(ways), speeds, np.array([here.accelerations[name] for name in goals]))
+    duration = least_time(np.abs(displacements), speeds, np.array([here.accelerations[name] for name in goals]))
     for share, rate in least_jerk(duration):
-        places, rates = starts + share * ways, rate * ways
+        positions, rates = starts + share * displacements, rate * displacements
         sense = yield (
             JointTarget(
                 robot=robot.name,
-                joints=dict(zip(goals, map(float, places), strict=True)),
+                joints=dict(zip(goals, map(float, positions), strict=True)),
                 speeds=dict(zip(goals, map(float, rates), strict=True)),
             ),
         )
@@ -41,24 +41,24 @@ def _can_drive(scene: Scene, *, robot: Thing, **_: object) -> None:
 
 @action(
     ROBOT_NAME,
-    ParameterSpec(name="place", kind="place"),
+    ParameterSpec(name="position", kind="position"),
     ParameterSpec(name="yaw", kind="angle", default=0.0),
     ParameterSpec(name="speed", kind="speed", default=0.4),
     check=_can_drive,
     moves="base",
 )
 def drive(
-    scene: Scene, sense: Sense, *, robot: Thing, place: tuple[float, float], yaw: float, speed: float
+    scene: Scene, sense: Sense, *, robot: Thing, position: tuple[float, float], yaw: float, speed: float
 ) -> Behaviour:
-    """Drive to a place on the floor, in the world's axes, and face a direction there (0: along x)."""
+    """Drive to a position on the floor, in the world's axes, and face a direction there (0: along x)."""
     del scene
     w, _, _, z = robot.orientation
     first = 2 * math.atan2(z, w)
-    dx, dy = place[0] - robot.position[0], place[1] - robot.position[1]
+    dx, dy = position[0] - robot.position[0], position[1] - robot.position[1]
     along = math.cos(first) * dx + math.sin(first) * dy
     aside = math.cos(first) * dy - math.sin(first) * dx
-    x, y, turn = sense.robots[robot.name].base
-    return (yield from move_joints(robot, sense, {x: along, y: aside, turn: yaw - first}, speed))
+    x, y, about = sense.robots[robot.name].base
+    return (yield from move_joints(robot, sense, {x: along, y: aside, about: yaw - first}, speed))
 
 
 def _can_look(scene: Scene, *, robot: Thing, **_: object) -> None:

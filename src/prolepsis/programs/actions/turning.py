@@ -24,5 +24,5 @@ def tilt(scene: Scene, sense: Sense, *, hand: Thing, angle: float, rate: float) 
     state = sense.hands[hand.name]
     yaw, pitch, start = state.turn
     angles = course(start, angle, rate)
-    turns = np.stack([np.full(len(angles), yaw), np.full(len(angles), pitch), angles], axis=1)
-    return (yield from follow(hand, sense, np.tile(state.offset, (len(angles), 1)), turns))
+    rotations = np.stack([np.full(len(angles), yaw), np.full(len(angles), pitch), angles], axis=1)
+    return (yield from follow(hand, sense, np.tile(state.offset, (len(angles), 1)), rotations))

@@ -48,13 +48,13 @@ def wipe(
     here, depth = start.offset, 0.0
     x, y, z = displacement
     for stroke in range(round(strokes) + 1):
-        way = (x, y, z) if stroke % 2 else (-x, -y, -z)
-        for step, velocity in still if stroke == 0 else line(way, ACCELERATION, speed):
+        along = (x, y, z) if stroke % 2 else (-x, -y, -z)
+        for step, velocity in still if stroke == 0 else line(along, ACCELERATION, speed):
             pressed = resting - sense.hands[hand.name].load()[2]
             # The hand is a spring: commanded deeper, it presses more.
             depth += (force - pressed) / start.stiffness * RATE * TICK
             offset = (here[0] + step[0], here[1] + step[1], here[2] + step[2] - depth)
             sense = yield (HandTarget(hand=hand.name, offset=offset, velocity=velocity, turn=start.turn),)
         if stroke:
-            here = (here[0] + way[0], here[1] + way[1], here[2] + way[2])
+            here = (here[0] + along[0], here[1] + along[1], here[2] + along[2])
     return (yield from travel(hand, sense, (0.0, 0.0, depth), ACCELERATION, LIFT_SPEED))
