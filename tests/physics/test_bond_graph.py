@@ -9,8 +9,8 @@ import pytest
 
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.matter.shells.bond_graph import BondGraph
-from prolepsis.matter.shells.shell_calibration import calibrated_graph
-from prolepsis.scene.shapes.egg import ellipsoid_normals, ellipsoid_points, ellipsoid_shell
+from prolepsis.matter.shells.calibration import calibrated_graph
+from prolepsis.matter.shells.cutting import ellipsoid_normals, ellipsoid_points, ellipsoid_shell
 from prolepsis.terms.errors import KnowledgeError
 
 AXES = (0.0285, 0.022, 0.022)

@@ -14,7 +14,7 @@ from prolepsis.engine.world import compile_world
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.log.log import Log
 from prolepsis.matter.shells.breaking import Breaking
-from prolepsis.matter.shells.shell_contact import local_stiffness
+from prolepsis.matter.shells.contact import local_stiffness
 from prolepsis.system.mujoco import mujoco
 
 SUBSTEPS = (6.25e-5, 1.25e-4, 2.5e-4)

@@ -7,7 +7,7 @@ import pytest
 from tests.scenes import run, scene
 
 from prolepsis.log.log import Log
-from prolepsis.scene.shapes.egg import ellipsoid_shell
+from prolepsis.matter.shells.cutting import ellipsoid_shell
 from prolepsis.terms.errors import KnowledgeError
 
 

@@ -13,7 +13,7 @@ from prolepsis.engine.world import compile_world
 from prolepsis.fluents import recognize
 from prolepsis.log.log import Log
 from prolepsis.matter.walls.denting import Denting
-from prolepsis.scene.shapes.panels import resistance
+from prolepsis.matter.walls.panels import resistance
 from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.errors import KnowledgeError
 

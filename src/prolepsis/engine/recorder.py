@@ -18,7 +18,6 @@ from prolepsis.engine.touching import empty_contacts
 from prolepsis.engine.turning import product, rotated
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.log import Contacts, Joints, Particles
-from prolepsis.system.mujoco import mujoco
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -98,8 +97,7 @@ class Recorder:
 
     def tick(self, state: State) -> None:
         """Copy the poses at the start of a tick."""
-        # After a step MuJoCo's poses are those before it; bring them up to the present state.
-        mujoco.mj_kinematics(state.model, state.data)
+        state.renew_poses()
         for pair in state.bonds:
             now, runs = len(self.poses), self.bonds.setdefault(pair, [])
             start = runs.pop()[0] if runs and runs[-1][1] == now else now

@@ -159,6 +159,12 @@ class State:
         w, x, y, z = (float(value) for value in self.pose(name)[3:])
         return (w, x, y, z)
 
+    def renew_poses(self, centres: bool = False) -> None:
+        """Bring poses, and centres of mass if wanted, up to the present: after a step they are those before it."""
+        mujoco.mj_kinematics(self.model, self.data)
+        if centres:
+            mujoco.mj_comPos(self.model, self.data)
+
     def velocity(self, name: str) -> FloatArray:
         """Return the velocity of a thing's carrier [m/s], shape (3,); zeros if it has none."""
         scene = self.scene
@@ -166,7 +172,7 @@ class State:
         return self._twist(scene.things[carrier].name)[3:] if carrier >= 0 else np.zeros(3)
 
     def velocity_at(self, body: str, point: FloatArray) -> FloatArray:
-        """Return the velocity of a point of a MuJoCo body in the world [m/s], shape (3,)."""
+        """Return the velocity of points of a MuJoCo body in the world [m/s], shape (..., 3)."""
         twist, arm = self._twist(body), np.asarray(point - self.data.body(body).xpos, dtype=np.float64)
         return twist[3:] + np.cross(twist[:3], arm)
 

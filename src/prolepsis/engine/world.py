@@ -148,6 +148,20 @@ class _Making:
         """Give a geom of a thing its friction and softness, and resistance to rolling where it rolls."""
         _rule_contact(geom, thing, self.ranks, rolls=rolls)
 
+    def add_hinge(
+        self, thing: str, place: Triple, axis: Triple, stiffness: float, damping: float, armature: float
+    ) -> None:
+        """Give the body of a thing a hinge of its name, in its own frame, with a spring [N m/rad, N m s/rad, kg m2]."""
+        self.spec.body(thing).add_joint(
+            name=thing,
+            type=mujoco.mjtJoint.mjJNT_HINGE,
+            pos=list(place),
+            axis=list(axis),
+            stiffness=[stiffness, 0, 0],
+            damping=[damping, 0, 0],
+            armature=armature,
+        )
+
     def add_pair(self, first: str, second: str, friction: float, gap: float) -> None:
         """Give two geoms a contact of their own, which is found from a distance of ``gap`` on [m]."""
         pair = self.spec.add_pair(name=f"{first}:{second}", geomname1=first, geomname2=second)

@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from prolepsis.geometry.shape import Triple
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.log.things import Thing
 from prolepsis.scene.running import MAX_STEP, Running
@@ -67,6 +68,12 @@ class Building(Protocol):
 
     def rule_contact(self, geom: Any, thing: Thing, *, rolls: bool) -> None:
         """Give a geom of a thing its friction and softness, and resistance to rolling where it rolls."""
+        ...
+
+    def add_hinge(
+        self, thing: str, place: Triple, axis: Triple, stiffness: float, damping: float, armature: float
+    ) -> None:
+        """Give the body of a thing a hinge of its name, in its own frame, with a spring [N m/rad, N m s/rad, kg m2]."""
         ...
 
     def add_pair(self, first: str, second: str, friction: float, gap: float) -> None:

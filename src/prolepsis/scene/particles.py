@@ -51,6 +51,10 @@ class ParticleState:
         """Return where they are by now if they have gone on as in their last step, shape (P, 3)."""
         return self.position + self.behind * self.free[:, None] * self.velocity
 
+    def holds(self, thing: int) -> bool:
+        """Return whether a thing, given by its index, holds any."""
+        return bool((self.holder == thing).any())
+
     @property
     def free(self) -> BoolArray:
         """Whether each particle flows, shape (P,)."""

@@ -108,12 +108,16 @@ class Running(Protocol):
         """Return how a thing is turned in the world, a unit quaternion (w, x, y, z)."""
         ...
 
+    def renew_poses(self, centres: bool = False) -> None:
+        """Bring poses, and centres of mass if wanted, up to the present: after a step they are those before it."""
+        ...
+
     def velocity(self, name: str) -> FloatArray:
         """Return the velocity of a thing's carrier [m/s], shape (3,); zeros if it has none."""
         ...
 
     def velocity_at(self, body: str, point: FloatArray) -> FloatArray:
-        """Return the velocity of a point of a MuJoCo body in the world [m/s], shape (3,)."""
+        """Return the velocity of points of a MuJoCo body in the world [m/s], shape (..., 3)."""
         ...
 
     def normal_forces(self) -> list[tuple[int, int, int, float]]:

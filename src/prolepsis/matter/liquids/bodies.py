@@ -10,7 +10,6 @@ from prolepsis.geometry.signed_distance import shifted, solids_as_arrays, union_
 from prolepsis.matter.liquids.walls import Bodies
 from prolepsis.scene.parts import Panel
 from prolepsis.scene.running import Running
-from prolepsis.system.mujoco import mujoco
 
 FREE_FREEDOMS = 6
 """Degrees of freedom of a body that moves freely."""
@@ -82,8 +81,7 @@ class WallBodies:
         return state.scene.things[carrier].emerges and float(state.model.body_mass[body]) < self._lightest
 
     def _poses(self, state: Running) -> tuple[FloatArray, FloatArray]:
-        # After a step these are a step old.
-        mujoco.mj_kinematics(state.model, state.data)
+        state.renew_poses()
         position: FloatArray = state.data.xpos[self.ids].copy()
         rotation: FloatArray = state.data.xmat[self.ids].copy()
         return position, rotation

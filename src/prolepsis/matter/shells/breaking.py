@@ -16,11 +16,10 @@ import numpy as np
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.log.happenings import Happening, detachment
 from prolepsis.matter.shells.bond_graph import BondGraph
+from prolepsis.matter.shells.calibration import calibrated_graph
 from prolepsis.matter.shells.cascade import Cascade, Cracking, Pressing, cascade
-from prolepsis.matter.shells.shell_calibration import calibrated_graph
-from prolepsis.matter.shells.shell_contact import ShellContact
-from prolepsis.matter.shells.shell_dents import ShellDents
-from prolepsis.matter.shells.shelled import Shell
+from prolepsis.matter.shells.contact import ShellContact, ShellDents
+from prolepsis.matter.shells.parts import Shell
 from prolepsis.scene.kind import Controller
 from prolepsis.scene.running import MAX_STEP, Running
 
@@ -349,8 +348,3 @@ def _calm(graph: BondGraph) -> float:
     wrenches = np.moveaxis(graph.wrenches_per_force(points), 0, 1).reshape(6 * len(graph.nodes), -1)
     components = (graph.response @ wrenches).reshape(len(graph.bonds), 6, len(points), 3)
     return float(BETWEEN_SAMPLES / graph.ratios(np.linalg.norm(components, axis=3).transpose(2, 0, 1)).max())
-
-
-def start(state: Running) -> list[Breaking]:
-    """Return a controller for each shell."""
-    return [Breaking(state, shell) for shell in state.scene.each(Shell)]

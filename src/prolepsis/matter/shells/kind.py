@@ -7,8 +7,7 @@ from itertools import product
 
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.log.things import Thing, friction_of, own_solids
-from prolepsis.matter.shells.egg_inside import egg_pools
-from prolepsis.matter.shells.shelled import Shell, shelled
+from prolepsis.matter.shells.parts import Membraned, Shell, egg_pools, shelled
 from prolepsis.scene.kind import Building, Channel, Controller, Draft, Individuals, Kind, Made
 from prolepsis.scene.running import Running
 from prolepsis.scene.scene import Pool
@@ -77,9 +76,15 @@ class Shells(Kind):
 
     def start(self, state: Running) -> Sequence[Controller]:
         """Return its controllers in one run."""
-        from prolepsis.matter.shells import breaking, membrane, opening
+        from prolepsis.matter.shells.breaking import Breaking
+        from prolepsis.matter.shells.inside import Membrane, Opening
 
-        return [*breaking.start(state), *opening.start(state), *membrane.start(state)]
+        shells, particles = state.scene.each(Shell), state.particles
+        breaking = [Breaking(state, shell) for shell in shells]
+        if particles is None:
+            return breaking
+        opening = [Opening(state, shell.whole) for shell in shells if particles.holds(state.scene.index(shell.whole))]
+        return [*breaking, *opening, *(Membrane(state, stuff) for stuff in state.scene.each(Membraned))]
 
 
 def _refuse_strength(kb: KnowledgeBase, name: str) -> None:

@@ -20,7 +20,6 @@ from prolepsis.matter.sponges.sponge_surface import SpongeSurface, nearest_of
 from prolepsis.scene.kind import Controller
 from prolepsis.scene.particles import ParticleState
 from prolepsis.scene.running import MAX_STEP, Running
-from prolepsis.system.mujoco import mujoco
 
 LOOK_TICKS = 5
 """The sponge is looked at every so many ticks; at 0.2 m/s it moves by a millimetre in that time."""
@@ -81,8 +80,7 @@ class Absorbing(Controller):
             return
         dt = LOOK_TICKS * MAX_STEP
         particles = state.particles
-        mujoco.mj_kinematics(state.model, state.data)
-        mujoco.mj_comPos(state.model, state.data)
+        state.renew_poses(centres=True)
         self._feel(state, dt)
         held = float(particles.mass[self.held(particles)].sum())
         # Empty places count: what hangs at the sponge may go on hanging.
@@ -97,14 +95,6 @@ class Absorbing(Controller):
     def _frame(self, state: Running) -> tuple[FloatArray, FloatArray]:
         body = state.data.body(self.thing.name)
         return body.xpos, body.xmat.reshape(3, 3)
-
-    def _velocity(self, state: Running, places: FloatArray) -> FloatArray:
-        """Return the velocity of the sponge at world points, shape (n, 3) [m/s]."""
-        motion = np.zeros(6)
-        body = state.model.body(self.thing.name).id
-        mujoco.mj_objectVelocity(state.model, state.data, mujoco.mjtObj.mjOBJ_XBODY, body, motion, 0)
-        arms: FloatArray = places - state.data.xpos[body]
-        return np.cross(motion[:3], arms) + motion[3:]
 
     def _feel(self, state: Running, dt: float) -> None:
         """Bring the pressure up to date: along each axis, half of all that pushes on it over its face there."""
@@ -173,7 +163,7 @@ class Absorbing(Controller):
         given = held[np.argsort(self._order[held])][: len(chosen)]
         particles.holder[given] = FREE
         particles.position[given] = places[chosen]
-        particles.velocity[given] = self._velocity(state, places[chosen])
+        particles.velocity[given] = state.velocity_at(self.thing.name, places[chosen])
         self._due -= len(given)
         return len(given)
 

@@ -35,7 +35,7 @@ class Walls(Kind):
         scene = building.scene
         for name in dict.fromkeys(panel.whole for panel in scene.each(Panel)):
             panels = tuple(panel for panel in scene.each(Panel) if panel.whole == name)
-            hinge_panels(building.spec, scene, scene.thing(name), panels)
+            hinge_panels(building, scene.thing(name), panels)
 
     def start(self, state: Running) -> Sequence[Controller]:
         """Return its controllers in one run."""

@@ -4,17 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
 from prolepsis.log.things import Thing, jointed
-from prolepsis.scene.kind import Made
+from prolepsis.matter.walls.panels import panels, resistance
+from prolepsis.scene.kind import Building, Made
 from prolepsis.scene.parts import Panel
 from prolepsis.scene.running import MAX_STEP
-from prolepsis.scene.scene import Scene
-from prolepsis.scene.shapes.panels import panels, resistance
-from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.errors import KnowledgeError
 
 PANEL = "Panel"
@@ -65,8 +62,9 @@ def bowl_parts(bowl: Thing) -> Made:
     return Made(things=(bowl, *made), parts=known)
 
 
-def hinge_panels(spec: Any, scene: Scene, bowl: Thing, parts: Sequence[Panel]) -> None:
-    """Let the panels of a bowl in the spec weigh and touch in the place of its wall, each on its hinge."""
+def hinge_panels(building: Building, bowl: Thing, parts: Sequence[Panel]) -> None:
+    """Let the panels of a bowl in a world weigh and touch in the place of its wall, each on its hinge."""
+    spec, scene = building.spec, building.scene
     own = [spec.geom(f"{bowl.name}/{k}") for k in range(1, len(bowl.shape.geoms))]
     mass = sum(float(geom.mass) for geom in own)
     for geom in own:
@@ -80,12 +78,5 @@ def hinge_panels(spec: Any, scene: Scene, bowl: Thing, parts: Sequence[Panel]) -
             made.mass, made.contype, made.conaffinity = share, CONTACT_TYPE, CONTACT_AFFINITY
         inertia = share * count * part.lever**2 / 3
         needed = max(part.stiffness * (MAX_STEP / SMOOTHEST) ** 2, inertia)
-        spec.body(part.name).add_joint(
-            name=part.name,
-            type=mujoco.mjtJoint.mjJNT_HINGE,
-            pos=list(panel.hinge),
-            axis=list(panel.axis),
-            stiffness=[part.stiffness, 0, 0],
-            damping=[2 * DAMPING_RATIO * float(np.sqrt(part.stiffness * needed)), 0, 0],
-            armature=needed - inertia,
-        )
+        damping = 2 * DAMPING_RATIO * float(np.sqrt(part.stiffness * needed))
+        building.add_hinge(part.name, panel.hinge, panel.axis, part.stiffness, damping, needed - inertia)

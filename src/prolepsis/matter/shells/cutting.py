@@ -22,7 +22,7 @@ SHRINK = 0.985
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Shell:
+class CutShell:
     """A closed shell as a graph: n pieces (nodes) and m bonds (edges), in the egg's frame."""
 
     centres: FloatArray
@@ -64,7 +64,7 @@ def curvature_radius(semi_axes: FloatArray, point: FloatArray) -> float:
 
 
 @lru_cache(maxsize=8)
-def ellipsoid_shell(semi_axes: tuple[float, float, float], piece_count: int, thickness: float) -> Shell:
+def ellipsoid_shell(semi_axes: tuple[float, float, float], piece_count: int, thickness: float) -> CutShell:
     """Return the shell of an ellipsoid, cut into equally large convex pieces.
 
     The pieces are the Voronoi cells of ``piece_count`` points after Lloyd's relaxation, so the cut is the
@@ -95,7 +95,7 @@ def ellipsoid_shell(semi_axes: tuple[float, float, float], piece_count: int, thi
     )
     surface = _ellipsoid_area(axes)
     areas = np.bincount(owner, minlength=piece_count) / len(samples) * surface
-    return Shell(
+    return CutShell(
         centres=centres,
         normals=ellipsoid_normals(centres, axes),
         areas=areas,

@@ -17,7 +17,7 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.matter.shells.bond_graph import BondGraph
-from prolepsis.scene.shapes.egg import ellipsoid_normals, ellipsoid_points, ellipsoid_shell
+from prolepsis.matter.shells.cutting import ellipsoid_normals, ellipsoid_points, ellipsoid_shell
 from prolepsis.terms.errors import KnowledgeError
 
 PINCH_COUNT = 300

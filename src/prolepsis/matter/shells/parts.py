@@ -1,18 +1,23 @@
-"""What has a breakable ellipsoidal shell: its parts - shell, stuffs, a firm kernel, the shards of the shell."""
+"""The parts of what has a breakable ellipsoidal shell: the shell and its shards, what flows inside, a firm kernel."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from prolepsis.geometry.shape import Geom, Shape
+from prolepsis.geometry.shape import FloatArray, Geom, Shape, Triple
+from prolepsis.geometry.solids import matrix
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.log.things import WITHIN, Thing
-from prolepsis.matter.shells.egg_things import room_within, shell_pieces
+from prolepsis.matter.liquids.packing import lattice
+from prolepsis.matter.shells.cutting import CutShell, curvature_radius, ellipsoid_shell
+from prolepsis.robots.hand import rotate
 from prolepsis.scene.colours import colour_of
 from prolepsis.scene.kind import Individuals, Made
-from prolepsis.scene.parts import Kernel
+from prolepsis.scene.parts import Kernel, Shard
+from prolepsis.scene.scene import Pool
 from prolepsis.terms.errors import KnowledgeError
 
 SLENDEREST, FLATTEST = 0.5, 2.0
@@ -143,3 +148,115 @@ def _kernel(kb: KnowledgeBase, part: Thing, whole: Thing, shell: Thing) -> Thing
     a, b, c = (float(v) for v in room_within(whole, shell) * np.asarray(whole.shape.geoms[0].size))
     shape = Shape(geoms=(Geom(type="ellipsoid", size=(a, b, c)),), colour=colour_of(kb, part.name))
     return replace(part, shape=shape, roles=part.roles | {"Piece"})
+
+
+CLEARANCE = 0.99
+"""Size of what is firm inside a shell over the room that the pieces leave [1]."""
+
+
+def shell_of(egg: Thing, shell: Thing) -> CutShell:
+    """Return the shell of an egg, cut into as many pieces as it may fall into."""
+    a, b, c = egg.shape.geoms[0].size
+    return ellipsoid_shell((a, b, c), round(shell.quantities["pieceCount"]), shell.quantities["shellThickness"])
+
+
+def room_within(egg: Thing, shell: Thing) -> float:
+    """Return the size of an ellipsoid of the egg's form that touches no piece of its shell, over the egg's [1]."""
+    cut = shell_of(egg, shell)
+    room = 1.0
+    for centre, normal, outline in zip(cut.centres, cut.normals, cut.outlines, strict=True):
+        # The inner face of a convex piece is flat: it lies as deep as its corners.
+        outside = float(centre @ normal)
+        room = min(room, (outside + float((outline @ normal).min())) / outside)
+    return CLEARANCE * room
+
+
+def shell_pieces(egg: Thing, shell: Thing) -> tuple[tuple[Thing, ...], tuple[Shard, ...]]:
+    """Return the pieces of an egg's shell as things, with their share of its mass, and what they are."""
+    parts = shell_of(egg, shell)
+    made: list[Thing] = []
+    shards: list[Shard] = []
+    for k, (centre, outline, area) in enumerate(zip(parts.centres, parts.outlines, parts.areas, strict=True)):
+        vertices = tuple((float(x), float(y), float(z)) for x, y, z in outline)
+        made.append(
+            Thing(
+                name=f"{shell.name}/piece{k}",
+                kind=f"{shell.kind}Piece",
+                shape=Shape(geoms=(Geom(type="mesh", vertices=vertices),), colour=egg.shape.colour),
+                position=_placed(egg, centre),
+                orientation=egg.orientation,
+                mass=float(shell.mass * area / parts.areas.sum()),
+                whole=shell.name,
+                mount=WITHIN,
+                roles=frozenset({"Piece"}),
+                quantities={"friction": shell.quantities["friction"]},
+            )
+        )
+        radius = curvature_radius(np.asarray(egg.shape.geoms[0].size), centre)
+        shards.append(Shard(name=made[-1].name, whole=egg.name, area=float(area), radius=radius))
+    return tuple(made), tuple(shards)
+
+
+def _placed(egg: Thing, offset: FloatArray) -> Triple:
+    x, y, z = np.asarray(egg.position) + rotate(egg.orientation, (offset[0], offset[1], offset[2]))
+    return (float(x), float(y), float(z))
+
+
+PARTICLES = 400
+"""Particles of an egg in a scene without another liquid: some 5 mm apart."""
+CLOSEST = 0.7
+"""Least distance of particles over the spacing [1]: more than an egg holds is refused."""
+FINER = 0.98
+"""Step by which the lattice is made finer [1]."""
+
+
+def egg_pools(
+    egg: Thing, stuffs: Sequence[Thing], spacing: float | None, particles: int = PARTICLES
+) -> tuple[tuple[Thing, ...], tuple[Pool, ...]]:
+    """Return the stuffs of an egg with their volumes, and their particles.
+
+    Args:
+        egg: The egg at its place.
+        stuffs: What is inside, from the middle outwards.
+        spacing: That of the other liquids of the scene [m], if there are any.
+        particles: Else the number of particles of this egg.
+
+    Raises:
+        KnowledgeError: If there is more than the egg holds.
+    """
+    if not stuffs:
+        return (), ()
+    volumes = [stuff.mass / stuff.quantities["density"] for stuff in stuffs]
+    apart = float(np.cbrt(sum(volumes) / particles)) if spacing is None else spacing
+    counts = [max(round(volume / apart**3), 1) for volume in volumes]
+    points = _packed(np.asarray(egg.shape.geoms[0].size), sum(counts), apart)
+    if points is None:
+        raise KnowledgeError(
+            f"{egg.name} is too small for {1e6 * sum(volumes):.3g} ml of {' and '.join(stuff.name for stuff in stuffs)}"
+        )
+    world = np.asarray(egg.position) + points @ matrix(np.asarray(egg.orientation)).T
+    made: list[Thing] = []
+    pools: list[Pool] = []
+    start = 0
+    for stuff, volume, count in zip(stuffs, volumes, counts, strict=True):
+        made.append(replace(stuff, quantities={**stuff.quantities, "volume": volume}))
+        chosen = world[start : start + count]
+        pools.append(Pool(stuff=stuff.name, position=chosen, spacing=apart, holder=egg.name))
+        start += count
+    return tuple(made), tuple(pools)
+
+
+def _packed(semi_axes: FloatArray, count: int, spacing: float) -> FloatArray | None:
+    """Return ``count`` lattice points within an ellipsoid, the nearest to its middle first, shape (count, 3)."""
+    step = spacing
+    while step > CLOSEST * spacing:
+        high = np.floor(semi_axes / step) * step
+        points = lattice(-high, high, step)
+        inside = np.linalg.norm(points / semi_axes, axis=1) <= 1
+        if inside.sum() >= count:
+            # The yolk is a ball in the middle; round it, all is filled alike.
+            layer = np.linalg.norm(points / semi_axes, axis=1)
+            points = points[np.argsort(layer, kind="stable")[:count]]
+            return points[np.argsort(np.linalg.norm(points, axis=1), kind="stable")]
+        step *= FINER
+    return None

@@ -1,4 +1,4 @@
-"""The membrane of a yolk holds it together, until it is stretched too much and the yolk runs out.
+"""What is inside a shell: it goes with the shell until that falls apart; the membrane of a yolk holds it together then.
 
 The particles of an intact yolk are drawn towards the shape that they had in the egg, turned and moved as they are now:
 so it flattens where it lands, and springs back.
@@ -14,19 +14,55 @@ import math
 import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, IntArray
+from prolepsis.geometry.solids import matrix
 from prolepsis.log.happenings import detachment
 from prolepsis.log.log import FREE
-from prolepsis.matter.shells.shelled import Membraned
+from prolepsis.matter.shells.parts import Membraned
 from prolepsis.scene.kind import Controller
 from prolepsis.scene.running import MAX_STEP, Running
 
+
+class Opening(Controller):
+    """The controller of what is inside one breakable thing."""
+
+    def __init__(self, state: Running, name: str) -> None:
+        """Look after the particles that the thing called ``name`` holds."""
+        assert state.particles is not None
+        self._name = name
+        self._index = state.scene.index(name)
+        self._inside = np.flatnonzero(state.particles.holder == self._index)
+        body = state.data.body(name)
+        turn = body.xmat.reshape(3, 3)
+        self._places = (state.particles.position[self._inside] - body.xpos) @ turn
+        state.particles.home[self._inside] = self._places
+        self._pose, self._motion = state.pose(name), np.zeros(6)
+
+    def bind(self, state: Running) -> None:
+        """Look up what it needs in a model that is new."""
+        if state.carrier[self._index] >= 0:
+            joint = state.model.joint(self._name)
+            place, speed = int(joint.qposadr[0]), int(joint.dofadr[0])
+            self._now = state.data.qpos[place : place + 7], state.data.qvel[speed : speed + 6]
+
+    def end_tick(self, state: Running) -> None:
+        """Let out what is inside where the shell has fallen apart."""
+        particles = state.particles
+        if particles is None or not len(self._inside):
+            return
+        if state.carrier[self._index] >= 0:
+            self._pose, self._motion = self._now[0].copy(), self._now[1].copy()
+            return
+        turn = matrix(self._pose[3:])
+        arms = self._places @ turn.T
+        particles.position[self._inside] = self._pose[:3] + arms
+        # Shells break in an impact: what is inside goes on as fast as it was before.
+        particles.velocity[self._inside] = self._motion[:3] + np.cross(turn @ self._motion[3:], arms)
+        particles.holder[self._inside] = FREE
+        self._inside = self._inside[:0]
+
+
 WOBBLE = 40.0
 """Angular frequency with which a yolk quivers [rad/s]: under its weight it sinks by g / w^2, a fifth of its height."""
-
-
-def start(state: Running) -> list[Membrane]:
-    """Return a controller for each stuff that has a membrane."""
-    return [Membrane(state, each) for each in state.scene.each(Membraned)] if state.particles is not None else []
 
 
 class Membrane(Controller):
