@@ -162,7 +162,8 @@ def project_into(
 
     if any(knowledge.is_a(name, "Liquid") for name in knowledge.objects) and not are_kept():
         tell("compiling the kernels of liquids, once, in about a minute")
-    robot = load_robot(read.robot, read.path.parent) if isinstance(read.robot, OwnRobot) else None
+    own = read.robot if isinstance(read.robot, OwnRobot) else None
+    robot = None if own is None else load_robot(own, read.path.parent, f"{read.path}: robot")
     scene = compose(knowledge, known_kinds(robot), particles=read.particles)
     check_units(read.plan, {name: each.unit for name, each in read.parameters.items()})
     program = read_program(read.bound_plan(), replace(scene, folder=read.path.parent))

@@ -44,9 +44,9 @@ TABLE = [
     (
         'name = "arm1"',
         'names = "arm1"',
-        "own_arm.toml: robot: unknown key 'names'; known: file, name, grippers, base, torso, head",
+        "own_arm.toml: robot: unknown key 'names'; did you mean 'name'?; known: file, name, grippers",
     ),
-    ('palm = "palm"\n', "", "robot.grippers.gripper1: the key 'palm' is missing; needed: palm, fingers, tool"),
+    ('palm = "palm"\n', "", "robot.grippers.gripper1: the key 'palm' is missing; needed: palm, tool"),
     (
         'palm = "palm"',
         'palm = "hand"',
@@ -66,7 +66,7 @@ TABLE = [
         "forward = [0, 1, 0]\ntool = ",
         "forward must point from the palm to the fingertips, not from pad to pad: [0.0, 1.0, 0.0]",
     ),
-    ("tool = ", 'pads = ["palm", "wheel"]\ntool = ', "gripper1: pads: no body named 'wheel'"),
+    ("tool = ", 'pads = ["palm", "wheel"]\ntool = ', "gripper1: pads: no body or geom named 'wheel'"),
     ("tool = ", 'joints = ["pan", "lift", "bend"]\ntool = ', "gripper1.joints: no joint named 'bend'; known: elbow"),
     (
         "tool = ",

@@ -22,7 +22,8 @@ HERE = Path(__file__).parent
 EXAMPLES = HERE.parents[1] / "examples"
 FILES = (EXAMPLES / "own_arm.xml", HERE / "own_arm.urdf")
 HOME = (0.0, -0.9, 1.7, 0.0, 0.3, 0.0)
-GRIPPER = OwnGripper(palm="palm", fingers=("left", "right"), tool=(0.08, 0.0, 0.0), home=HOME)
+FINGERS = {"fingers": ("left", "right")}
+GRIPPER = OwnGripper(palm="palm", effector=FINGERS, tool=(0.08, 0.0, 0.0), home=HOME)
 
 
 def own(file: Path, gripper: OwnGripper = GRIPPER) -> OwnRobot:
@@ -75,7 +76,7 @@ def test_speeds_are_those_of_the_urdf_and_efforts_those_of_the_motors() -> None:
 
 def test_what_a_gripper_says_goes_before_what_is_computed() -> None:
     told = OwnGripper(
-        palm="palm", fingers=("left", "right"), tool=(0.08, 0.0, 0.0), speed=1.0, stiffness=(900.0,) * 6, max_force=40.0
+        palm="palm", effector=FINGERS, tool=(0.08, 0.0, 0.0), speed=1.0, stiffness=(900.0,) * 6, max_force=40.0
     )
     robot = load_robot(own(FILES[0], told), HERE)
     assert {(joint.speed, joint.stiffness) for joint in robot.arms[0].joints} == {(1.0, 900.0)}
@@ -87,7 +88,7 @@ def test_what_a_gripper_says_goes_before_what_is_computed() -> None:
 def test_the_gripper_frame_is_forward_and_from_pad_to_pad(tmp_path: Path) -> None:
     text = FILES[0].read_text(encoding="utf-8").replace('<body name="palm" pos="0.1 0 0">', TURNED_PALM)
     (tmp_path / "turned.xml").write_text(text, encoding="utf-8")
-    palm = OwnGripper(palm="palm", fingers=("left", "right"), tool=(0.0, 0.0, 0.08), forward=(0.0, 0.0, 1.0), home=HOME)
+    palm = OwnGripper(palm="palm", effector=FINGERS, tool=(0.0, 0.0, 0.08), forward=(0.0, 0.0, 1.0), home=HOME)
     straight = load_robot(own(FILES[0]), HERE)
     turned = load_robot(own(tmp_path / "turned.xml", palm), tmp_path)
     for robot, forward in ((straight, (1.0, 0.0, 0.0)), (turned, (0.0, 0.0, 1.0))):
@@ -120,8 +121,10 @@ def test_a_robot_without_one_body_that_carries_all_gets_one(tmp_path: Path) -> N
 def test_fingers_that_turn_part_as_the_model_says() -> None:
     right = OwnGripper(
         palm="r_gripper_palm_link",
-        fingers=("r_gripper_l_finger_joint", "r_gripper_r_finger_joint"),
-        pads=("r_gripper_l_finger_tip_link", "r_gripper_r_finger_tip_link"),
+        effector={
+            "fingers": ("r_gripper_l_finger_joint", "r_gripper_r_finger_joint"),
+            "pads": ("r_gripper_l_finger_tip_link", "r_gripper_r_finger_tip_link"),
+        },
         tool=(0.18, 0.0, 0.0),
         max_force=80.0,
     )
@@ -129,7 +132,7 @@ def test_fingers_that_turn_part_as_the_model_says() -> None:
     own_pr2 = OwnRobot(file=str(PR2.file), base=base, torso=("torso_lift_joint",), grippers={"rightGripper": right})
     robot = load_robot(own_pr2, HERE)
     read, known = robot_model(robot).gaps["rightGripper"], robot_model(PR2).gaps["rightGripper"]
-    assert read.gaps == pytest.approx(known.gaps) and read.places == pytest.approx(known.places, abs=1e-9)
+    assert read.gaps == pytest.approx(known.gaps) and read.ahead == pytest.approx(known.ahead, abs=1e-9)
     assert [joint.name for joint in robot.arms[0].joints] == [joint.name for joint in PR2.arms[0].joints]
     # The other arm and the head, which nothing names, hold still.
     assert {"torso_lift_joint", "head_pan_joint", "l_elbow_flex_joint"} < {joint.name for joint in robot.torso}
@@ -143,7 +146,7 @@ def test_objects_are_held_at_the_middle_of_the_pads() -> None:
         body = read.model.body("r_gripper_l_finger_tip_link").id
         pad = next(geom for geom in range(read.model.ngeom) if read.model.geom_bodyid[geom] == body)
         place = palm.xmat.reshape(3, 3).T @ (data.geom_xpos[pad] - palm.xpos)
-        assert read.gaps["rightGripper"].shift(width) == pytest.approx(float(place[0]) - 0.18, abs=1e-3)
+        assert read.gaps["rightGripper"].held_at(width)[0] == pytest.approx(float(place[0]) - 0.18, abs=1e-3)
         assert np.isfinite(place).all()
 
 
@@ -169,7 +172,7 @@ def test_each_of_three_arms_touches_the_others_but_not_where_they_begin(tmp_path
     (tmp_path / "three.xml").write_text(f"<mujoco><worldbody>{trunk}</worldbody></mujoco>", encoding="utf-8")
     grippers = {
         f"gripper{k}": OwnGripper(
-            palm=f"palm{k}", fingers=(f"left{k}", f"right{k}"), tool=(0.06, 0.0, 0.0), max_force=20.0
+            palm=f"palm{k}", effector={"fingers": (f"left{k}", f"right{k}")}, tool=(0.06, 0.0, 0.0), max_force=20.0
         )
         for k in range(3)
     }

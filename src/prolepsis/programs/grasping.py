@@ -103,7 +103,8 @@ def grasp_as_turned(hand: Thing, object: Thing, sense: Sense, height: float) -> 
     displacement = displacement_to(hand, object, sense, height)
     forward = rotate(here.orientation, (1.0, 0.0, 0.0))
     if here.arm is not None:
-        displacement = displacement - here.arm.pad_shift(width) * forward
+        ahead, aside = here.arm.held_at(width)
+        displacement = displacement - ahead * forward - aside * rotate(here.orientation, (0.0, 1.0, 0.0))
     return GraspPose(offset=_sum(here.offset, displacement), rotation=here.turn, width=width, forward=triple(forward))
 
 
@@ -134,8 +135,10 @@ def grasp_poses(
         if width + LEAST_MARGIN > hand.quantities["maxOpening"]:
             continue
         forward = rotate(orientation, (1.0, 0.0, 0.0))
-        ahead = np.array([forward[0], forward[1], 0.0]) / max(float(np.hypot(forward[0], forward[1])), 1e-9)
-        offset = position + (0.0, 0.0, higher) - short * ahead - arm.pad_shift(width) * forward - first
+        level = np.array([forward[0], forward[1], 0.0]) / max(float(np.hypot(forward[0], forward[1])), 1e-9)
+        ahead, aside = arm.held_at(width)
+        held = ahead * forward + aside * rotate(orientation, (0.0, 1.0, 0.0))
+        offset = position + (0.0, 0.0, higher) - short * level - held - first
         yield GraspPose(offset=triple(offset), rotation=rotation, width=width, forward=triple(forward))
 
 

@@ -64,13 +64,14 @@ class HeldOut:
     pinch: FloatArray
     """Unit vector from pad to pad, level, shape (3,)."""
 
-    def second(self, short: float, pad_shift: float) -> Iterator[HandPose]:
-        """Yield poses of the second hand whose pads' middle is ``short`` [m] from the thing's: a mirror image."""
+    def second(self, short: float, held_at: tuple[float, float]) -> Iterator[HandPose]:
+        """Yield poses of the second hand, mirror images, at which it holds ``short`` [m] from the thing's middle."""
         ahead = self.first.rotation[:, 0]
         forward = ahead - 2 * float(ahead @ self.across) * self.across
         for pinch in (self.pinch, -self.pinch):
             rotation = np.stack([forward, pinch, np.cross(forward, pinch)], axis=1)
-            yield HandPose(position=self.middle + short * self.across - pad_shift * forward, rotation=rotation)
+            held = held_at[0] * forward + held_at[1] * pinch
+            yield HandPose(position=self.middle + short * self.across - held, rotation=rotation)
 
 
 def holds(hand: HandSense, other: HandSense, object: Thing, reference: Quaternion) -> Iterator[HeldOut]:
@@ -139,7 +140,7 @@ def hold_out(
         pose = held.first.seen(here, reference)
         found = here.arm.way(*pose, touching, held=seen.name)
         if not found.problem:
-            for second in held.second(short, there.arm.pad_shift(0.0)):
+            for second in held.second(short, there.arm.held_at(0.0)):
                 found = there.arm.way(*second.seen(there, reference), touching, 0.0)
                 # Both arms will be elsewhere than now: whether they touch is looked at then.
                 if found.problem != "unreachable":

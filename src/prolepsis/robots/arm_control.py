@@ -10,7 +10,7 @@ from prolepsis.geometry.shape import FloatArray, Quaternion, Triple, quaternion,
 from prolepsis.log.things import Thing
 from prolepsis.robots.arm_way import ArmWays, name_of
 from prolepsis.robots.commands import ArmTarget, Command, HandSense, HandTarget
-from prolepsis.robots.gripper_control import Drive, GripperControl
+from prolepsis.robots.effectors.kind import KINDS, EffectorControl
 from prolepsis.robots.inverse import ArmKinematics
 from prolepsis.robots.model import robot_model
 from prolepsis.robots.turned import compose_pose, relative_pose, turn_of, turned
@@ -28,8 +28,6 @@ CATCHING_UP = 0.3
 """Share of the hand's distance from its target that is caught up at each solution [1]."""
 BUMP = 8.0
 """Force on an arm or a palm [N] that tells of a collision; a hand that rolls an egg aside feels less."""
-GRIPPER_STIFFNESS, GRIPPER_DAMPING = 4.0e3, 80.0
-"""Servo of the opening [N/m, N s/m]."""
 
 
 class ArmHand:
@@ -43,16 +41,7 @@ class ArmHand:
         self._kinematics = ArmKinematics(robot, self._arm)
         gripper = self._arm.gripper
         gap = robot_model(robot).gaps[thing.name]
-        drive = Drive(
-            motor=f"{self.name}/gap",
-            tendon=f"{self.name}/gap",
-            pads=(self._prefix + gripper.pads[0], self._prefix + gripper.pads[1]),
-            gap=gap,
-            max_force=gripper.max_force,
-            stiffness=GRIPPER_STIFFNESS,
-            damping=GRIPPER_DAMPING,
-        )
-        self.gripper = GripperControl(state, drive)
+        self.gripper: EffectorControl = KINDS[gripper.kind].control(state, gripper, gap, robot_name, self.name)
         self._reference = reference
         self._rates: FloatArray = np.zeros(len(self._arm.joints))
         self._stiff = np.array([joint.stiffness for joint in self._arm.joints])
@@ -96,12 +85,13 @@ class ArmHand:
         self.ways.bind(state, places, self._links, fingers)
 
     def _bodies(self, first: int) -> tuple[dict[int, str], list[int]]:
-        """Return the links from ``first`` to the palm by body, and what moves on the palm."""
+        """Return the links from ``first`` to the palm by body, and what moves on the palm or is a pad."""
         model = self._model
+        pads = {int(model.body(self._prefix + pad).id) for pad in self._arm.gripper.pads}
         links, fingers = {first: model.body(first).name}, list[int]()
         for body in range(first + 1, model.nbody):
             parent = int(model.body_parentid[body])
-            if parent in fingers or (parent == self._palm and model.body_jntnum[body]):
+            if parent in fingers or body in pads or (parent == self._palm and model.body_jntnum[body]):
                 fingers.append(body)
             elif parent in links:
                 links[body] = model.body(body).name

@@ -9,7 +9,7 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, IntArray, Quaternion, Triple
 from prolepsis.robots.commands import Way
-from prolepsis.robots.gap import Gap
+from prolepsis.robots.effectors.gap import Gap
 from prolepsis.robots.inverse import ArmKinematics, Found
 from prolepsis.robots.turned import compose_pose, conjugated, inverse, relative_pose, turn_of, turned
 from prolepsis.scene.robot import Arm
@@ -40,7 +40,7 @@ class ArmWays:
         self.speeds = kinematics.speeds
         self.accelerations = np.array([joint.acceleration for joint in arm.joints])
         self._kinematics = kinematics
-        self._gap = gap
+        self._gap, self._opening_joints = gap, len(arm.gripper.joints)
         self._first = first
         self._reference = reference
         self._mount_name, self._palm = mount, palm
@@ -55,7 +55,9 @@ class ArmWays:
         self._places = places
         self._bodies, self._fingers = frozenset((*links, *fingers)), frozenset(fingers)
         joints = [j for j in range(state.model.njnt) if int(state.model.jnt_bodyid[j]) in self._fingers]
-        self._finger_places: IntArray = np.array([int(state.model.jnt_qposadr[j]) for j in joints], dtype=np.int64)
+        # A palm that is a pad itself is moved by a joint of the arm.
+        opening = [int(state.model.jnt_qposadr[j]) for j in joints if int(state.model.jnt_qposadr[j]) not in places]
+        self._finger_places: IntArray = np.array(opening, dtype=np.int64)
         self._mount = int(state.model.body(self._mount_name).id)
         self._scratch = mujoco.MjData(state.model)
 
@@ -67,9 +69,9 @@ class ArmWays:
         x, y, _ = conjugated(inverse(self._reference), (way[0], way[1], way[2]))
         return float(np.arctan2(y, x))
 
-    def pad_shift(self, width: float) -> float:
-        """Return how far along x the pads' middle is from the hand's frame at a gap of ``width`` [m]."""
-        return self._gap.shift(width)
+    def held_at(self, width: float) -> tuple[float, float]:
+        """Return where what is ``width`` [m] wide has its middle when it is held, along the hand's x and y [m]."""
+        return self._gap.held_at(width)
 
     def place(self, joints: FloatArray) -> tuple[Triple, Triple]:
         """Return place and turn of the hand with the given coordinates [rad], shape (n,)."""
@@ -103,7 +105,7 @@ class ArmWays:
         self._scratch.qpos[:] = self._state.data.qpos
         self._hold(held)
         if opening is not None:
-            self._scratch.qpos[self._finger_places] = self._gap.length(opening) / 2
+            self._scratch.qpos[self._finger_places] = self._gap.length(opening) / self._opening_joints
         nearest: Found | None = None
         blocked = ""
         chosen: list[tuple[float, FloatArray]] = []

@@ -146,8 +146,8 @@ class Arm(Protocol):
         """Return the yaw in which a place in the world lies from the shoulder [rad]."""
         ...
 
-    def pad_shift(self, width: float) -> float:
-        """Return how far along x the pads' middle is from the hand's frame at a gap of ``width`` [m]."""
+    def held_at(self, width: float) -> tuple[float, float]:
+        """Return where what is ``width`` [m] wide has its middle when it is held, along the hand's x and y [m]."""
         ...
 
     def place(self, joints: FloatArray) -> tuple[Triple, Triple]:

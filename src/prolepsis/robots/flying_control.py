@@ -9,8 +9,8 @@ import numpy as np
 from prolepsis.geometry.shape import Triple
 from prolepsis.log.things import Thing
 from prolepsis.robots.commands import HandSense, HandTarget
-from prolepsis.robots.gap import Gap
-from prolepsis.robots.gripper_control import Drive, GripperControl
+from prolepsis.robots.effectors.gap import Gap
+from prolepsis.robots.effectors.gripper_control import Drive, GripperControl
 from prolepsis.robots.hand import Hand
 from prolepsis.robots.turned import turned
 from prolepsis.scene.running import Running
@@ -32,6 +32,7 @@ class FlyingHand:
             motor=f"{self.name}/gap",
             tendon=f"{self.name}/gap",
             pads=(f"{self.name}/left_finger", f"{self.name}/right_finger"),
+            moving=2,
             gap=Gap.sliding(thing.quantities["opening"], hand.max_opening),
             max_force=hand.max_force,
             stiffness=hand.opening_gain,

@@ -14,6 +14,7 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, Geom, Quaternion, Shape, Triple
 from prolepsis.log.things import WITHIN, Thing, jointed
+from prolepsis.robots.effectors.parallel import drive_coupled
 from prolepsis.system.mujoco import mujoco
 
 PART_KIND = "Part"
@@ -146,26 +147,13 @@ class Hand:
             joint = palm.add_joint(name=f"{name}/{axis}", type=mujoco.mjtJoint.mjJNT_HINGE, axis=np.eye(3)[2 - k])
             joint.armature = 0.005
             self._servo(spec, f"{name}/{axis}", self.turn_gain, self.turn_damping)
-        tendon = spec.add_tendon(name=f"{name}/gap")
         for side, sign in (("left", 1.0), ("right", -1.0)):
             finger = spec.body(f"{name}/{side}_finger")
             finger.gravcomp = 1
             finger.add_joint(
                 name=f"{name}/{side}", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=(0.0, sign, 0.0), armature=0.01
             )
-            tendon.wrap_joint(f"{name}/{side}", 1.0)
-        spec.add_equality(
-            name=f"{name}/coupling",
-            type=mujoco.mjtEq.mjEQ_JOINT,
-            name1=f"{name}/left",
-            name2=f"{name}/right",
-            objtype=mujoco.mjtObj.mjOBJ_JOINT,
-            data=[0, 1, *[0] * 10],
-            solref=[0.004, 1],
-            solimp=[0.99, 0.9999, 0.001, 0.5, 2],
-        )
-        motor = spec.add_actuator(name=f"{name}/gap", target=f"{name}/gap", trntype=mujoco.mjtTrn.mjTRN_TENDON)
-        motor.biastype = mujoco.mjtBias.mjBIAS_AFFINE
+        drive_coupled(spec, name, [f"{name}/left", f"{name}/right"])
 
     def _servo(self, spec: Any, joint: str, gain: float, damping: float) -> Any:
         servo = spec.add_actuator(name=joint, target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT)

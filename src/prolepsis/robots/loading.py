@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from prolepsis.geometry.shape import FloatArray
-from prolepsis.robots.grippers import gripper_of, make_fingers_open, pads_of
-from prolepsis.robots.model import follow_couplings
+from prolepsis.robots.effectors.kind import EffectorKind, read_effector
 from prolepsis.robots.model_file import ModelFile, read_model_file
+from prolepsis.robots.parts import follow_couplings
 from prolepsis.scenario.own_robot import OwnGripper, OwnRobot
-from prolepsis.scene.robot import Arm, Joint, ParallelGripper, Robot
+from prolepsis.scene.robot import Arm, Effector, Joint, Robot
 from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.errors import ScenarioError, UnknownNameError
 
@@ -42,46 +42,47 @@ class _Reading:
     path: Path
     file: ModelFile
     model: Any
-    """The ``mujoco.MjModel``, its fingers made to open when they grow."""
+    """The ``mujoco.MjModel``, its effectors made to open when their joints grow."""
     data: Any
     """At home."""
     inertias: FloatArray
     """Of each joint at home, with the payload [kg m^2 or kg], shape (n,)."""
 
 
-def load_robot(own: OwnRobot, folder: Path) -> Robot:
+def load_robot(own: OwnRobot, folder: Path, table: str = "robot") -> Robot:
     """Return the robot that a scenario's table describes.
 
     Args:
         own: The table.
         folder: Where its relative path starts.
+        table: Where the table is, for messages.
 
     Raises:
         ScenarioError: If the file cannot be used, or does not suit what the table says of it.
         UnknownNameError: If the table names a joint or a body that the file lacks.
     """
+    told = {name: read_effector(given, f"{table}.grippers.{name}") for name, given in own.grippers.items()}
     path = folder / own.file
     file = read_model_file(path)
     first: Any = file.spec.compile()
     where = {name: f"{path}: gripper {name}" for name in own.grippers}
-    pads = {name: pads_of(first, given, where[name]) for name, given in own.grippers.items()}
-    for name, given in own.grippers.items():
-        make_fingers_open(file.spec, first, given, pads[name], where[name])
+    opening = {
+        name: kind.fit(file.spec, first, keys, own.grippers[name], where[name]) for name, (kind, keys) in told.items()
+    }
     model: Any = file.spec.compile()
     chains = {name: _chain(model, own, name, given, where[name]) for name, given in own.grippers.items()}
     _refuse_shared(chains, path)
-    _refuse_second_roles(model, own, chains, path)
+    _refuse_second_roles(model, own, chains, opening, path)
     homes = _homes(model, own, chains, file, where)
     data = _at_home(model, homes)
     inertias = _inertias(model, data, list(own.grippers.values()))
     reading = _Reading(path=path, file=file, model=model, data=data, inertias=inertias)
     arms: list[Arm] = []
     for name, given in own.grippers.items():
-        effort = min(file.efforts.get(finger, np.inf) for finger in given.fingers)
-        gripper = gripper_of(model, given, pads[name], effort if np.isfinite(effort) else None, where[name])
+        gripper = _effector(reading, *told[name], opening[name], given, where[name])
         arms.append(_arm(reading, name, given, gripper, chains[name], homes, where[name]))
     taken = {*own.base, *own.head, *own.torso, *(joint for chain in chains.values() for joint in chain)}
-    fingers = {finger for given in own.grippers.values() for finger in given.fingers}
+    fingers = {joint for joints in opening.values() for joint in joints}
     free = [name for name in _names(model) if name not in taken | fingers and name not in _coupled(model)]
     return Robot(
         kind="Robot",
@@ -144,11 +145,13 @@ def _refuse_shared(chains: dict[str, tuple[str, ...]], path: Path) -> None:
                 )
 
 
-def _refuse_second_roles(model: Any, own: OwnRobot, chains: dict[str, tuple[str, ...]], path: Path) -> None:
+def _refuse_second_roles(
+    model: Any, own: OwnRobot, chains: dict[str, tuple[str, ...]], opening: dict[str, tuple[str, ...]], path: Path
+) -> None:
     """Refuse joints that are to do two things, and a base that is none."""
     roles = {"base": own.base, "torso": own.torso, "head": own.head}
     roles |= {f"an arm of {name}": chain for name, chain in chains.items()}
-    roles |= {f"fingers of {name}": given.fingers for name, given in own.grippers.items()}
+    roles |= {f"fingers of {name}": joints for name, joints in opening.items()}
     seen: dict[str, str] = {}
     for role, joints in roles.items():
         for joint in joints:
@@ -267,11 +270,26 @@ def _joints(
     return tuple(made)
 
 
+def _effector(
+    reading: _Reading, kind: EffectorKind[Any], keys: Any, joints: tuple[str, ...], given: OwnGripper, where: str
+) -> Effector:
+    """Return what an arm holds things with, its greatest force computed if it is not given."""
+    spec = reading.file.spec
+    effector = kind.read(spec, reading.model, joints, keys, given, where)
+    gap = kind.gap(spec, reading.model, effector, where)
+    if given.max_force is not None:
+        return effector
+    effort = min((reading.file.efforts.get(joint, np.inf) for joint in joints), default=np.inf)
+    if not np.isfinite(effort):
+        raise ScenarioError(f"{where}: nothing tells the greatest force of its pads; give max_force [N]")
+    return replace(effector, max_force=effort / round(max(gap.levers), 9))
+
+
 def _arm(
     reading: _Reading,
     name: str,
     given: OwnGripper,
-    gripper: ParallelGripper,
+    gripper: Effector,
     chain: tuple[str, ...],
     homes: dict[str, float],
     where: str,

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from prolepsis.scene.robot import Arm, Joint, ParallelGripper, Robot
+from prolepsis.scene.robot import Arm, Effector, Joint, Robot
 
 _ARM = (
     # name, speed [rad/s], acceleration [rad/s^2], stiffness [N m/rad], damping [N m s/rad], home of the left arm [rad]
@@ -36,9 +36,10 @@ def _arm(side: str, name: str) -> Arm:
         )
         for joint, speed, acceleration, stiffness, damping, home in _ARM
     )
-    gripper = ParallelGripper(
+    gripper = Effector(
+        kind="parallel",
         palm=f"{side}_gripper_palm_link",
-        fingers=(f"{side}_gripper_l_finger_joint", f"{side}_gripper_r_finger_joint"),
+        joints=(f"{side}_gripper_l_finger_joint", f"{side}_gripper_r_finger_joint"),
         pads=(f"{side}_gripper_l_finger_tip_link", f"{side}_gripper_r_finger_tip_link"),
         tool=(0.18, 0.0, 0.0),
         max_force=100.0,

@@ -7,7 +7,7 @@ from itertools import combinations
 from typing import Any
 
 from prolepsis.log.things import Thing
-from prolepsis.robots.grippers import COUPLING_SOLIMP, COUPLING_SOLREF
+from prolepsis.robots.effectors.kind import KINDS
 from prolepsis.robots.model import robot_model
 from prolepsis.robots.model_file import OTHERS, OWN
 from prolepsis.scene.kind import Building
@@ -94,25 +94,9 @@ def _add_servo(spec: Any, name: str, joint: Joint) -> None:
 
 def _add_gripper(spec: Any, robot: str, arm: Arm) -> None:
     gripper = arm.gripper
-    fingers = [f"{robot}/{finger}" for finger in gripper.fingers]
     palm = spec.body(f"{robot}/{gripper.palm}")
     palm.add_site(name=f"{arm.name}/tool", pos=list(gripper.tool), quat=list(gripper.tool_orientation))
-    tendon = spec.add_tendon(name=f"{arm.name}/gap")
-    for finger in fingers:
-        tendon.wrap_joint(finger, 1.0)
-    if not any({each.name1, each.name2} == {*fingers} for each in spec.equalities):
-        spec.add_equality(
-            name=f"{arm.name}/coupling",
-            type=mujoco.mjtEq.mjEQ_JOINT,
-            name1=fingers[0],
-            name2=fingers[1],
-            objtype=mujoco.mjtObj.mjOBJ_JOINT,
-            data=[0, 1, *[0] * 10],
-            solref=list(COUPLING_SOLREF),
-            solimp=list(COUPLING_SOLIMP),
-        )
-    motor = spec.add_actuator(name=f"{arm.name}/gap", target=f"{arm.name}/gap", trntype=mujoco.mjtTrn.mjTRN_TENDON)
-    motor.biastype = mujoco.mjtBias.mjBIAS_AFFINE
+    KINDS[gripper.kind].edit(spec, gripper, robot, arm.name)
 
 
 def _name_geoms(spec: Any, model: Any, robot: str) -> None:

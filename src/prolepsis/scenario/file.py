@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
+from dataclasses import MISSING, fields
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar, cast
 
 from pydantic import (
     BaseModel,
@@ -22,9 +23,10 @@ from pydantic import (
 
 from prolepsis.scenario.own_robot import OwnGripper, OwnRobot
 from prolepsis.system.text_files import read_text
-from prolepsis.terms.errors import ScenarioError, brief
+from prolepsis.terms.errors import ScenarioError, brief, did_you_mean
 
 Number = StrictInt | StrictFloat
+T = TypeVar("T")
 
 LONGEST_FILE = 1_000_000
 """Longest scenario file [bytes]."""
@@ -91,24 +93,57 @@ def read_robot(table: Mapping[str, Any], where: str) -> OwnRobot:
     Raises:
         ScenarioError: If it is wrong.
     """
-    try:
-        return TypeAdapter(OwnRobot).validate_python(table)
-    except ValidationError as error:
-        problem = error.errors(include_url=False)[0]
-        keys = [str(key) for key in problem["loc"]]
-        place = f"{where}: robot" + "".join(f".{key}" for key in keys[:-1])
-        known = OwnGripper.__dataclass_fields__ if keys[0] == "grippers" else OwnRobot.__dataclass_fields__
-        if problem["type"] == "unexpected_keyword_argument":
-            raise ScenarioError(f"{place}: unknown key {brief(repr(keys[-1]))}; known: {', '.join(known)}") from None
-        if problem["type"] == "missing" and not keys[-1].isdigit():
-            needed = "palm, fingers, tool" if keys[0] == "grippers" else "file, grippers"
-            raise ScenarioError(f"{place}: the key {keys[-1]!r} is missing; needed: {needed}") from None
-        raise ScenarioError(f"{place}.{keys[-1]}: {problem['msg'].lower()}") from None
+    grippers = table.get("grippers")
+    if isinstance(grippers, Mapping):
+        named = cast("Mapping[str, Any]", grippers)
+        table = {**table, "grippers": {name: _effector_apart(each) for name, each in named.items()}}
+    return read_table(OwnRobot, table, f"{where}: robot")
 
 
 def write_robot(robot: OwnRobot) -> dict[str, Any]:
     """Return the table from which ``read_robot`` makes the same robot."""
-    return TypeAdapter(OwnRobot).dump_python(robot, mode="json")
+    table = TypeAdapter(OwnRobot).dump_python(robot, mode="json")
+    for gripper in table["grippers"].values():
+        gripper |= gripper.pop("effector")
+    return table
+
+
+def read_table(type: type[T], table: Mapping[str, Any], place: str) -> T:
+    """Return what a table says that a dataclass describes.
+
+    Raises:
+        ScenarioError: If it is wrong.
+    """
+    try:
+        return TypeAdapter(type).validate_python(table)
+    except ValidationError as error:
+        problem = error.errors(include_url=False)[0]
+        keys = [str(key) for key in problem["loc"]]
+        where = place + "".join(f".{key}" for key in keys[:-1])
+        described: Any = OwnGripper if keys[0] == "grippers" and len(keys) > 2 else type
+        known = {each.name: each for each in fields(described)}
+        if problem["type"] == "unexpected_keyword_argument":
+            raise unknown_key(where, keys[-1], known) from None
+        if problem["type"] == "missing" and not keys[-1].isdigit():
+            needed = ", ".join(n for n, each in known.items() if MISSING is each.default is each.default_factory)
+            raise ScenarioError(f"{where}: the key {keys[-1]!r} is missing; needed: {needed}") from None
+        raise ScenarioError(f"{where}.{keys[-1]}: {problem['msg'].lower()}") from None
+
+
+def unknown_key(place: str, key: str, known: Collection[str]) -> ScenarioError:
+    """Return the error for a key that a table may not have, with the nearest one that it may."""
+    return ScenarioError(
+        f"{place}: unknown key {brief(repr(key))}{did_you_mean(key, known)}; known: {', '.join(known)}"
+    )
+
+
+def _effector_apart(gripper: Any) -> Any:
+    """Return a gripper's table with the keys of its kind of effector in one of their own; None says nothing."""
+    if not isinstance(gripper, Mapping):
+        return gripper
+    keys = cast("Mapping[str, Any]", gripper)
+    common = {key: keys[key] for key in keys if key in OwnGripper.__dataclass_fields__ and key != "effector"}
+    return {**common, "effector": {k: v for k, v in keys.items() if k not in common and v is not None}}
 
 
 def _first_problem(error: ValidationError, table: Mapping[str, Any]) -> str:

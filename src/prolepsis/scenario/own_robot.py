@@ -4,40 +4,38 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import field
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import ConfigDict, Field
 from pydantic.dataclasses import dataclass
 
 from prolepsis.terms.errors import ScenarioError
 
-_STRICT = ConfigDict(extra="forbid")
+STRICT = ConfigDict(extra="forbid")
 _NAME = re.compile(r"[a-z]\w*", re.ASCII)
 _Number = Annotated[float, Field(ge=-1.0e4, le=1.0e4)]
 """A coordinate or a direction [m, rad or 1]."""
 _Near = Annotated[float, Field(ge=-10.0, le=10.0)]
 """A place seen from the palm [m]."""
 _Positive = Annotated[float, Field(gt=0.0, le=1.0e9)]
-_Name = Annotated[str, Field(max_length=200)]
-_Names = Annotated[tuple[_Name, ...], Field(max_length=100)]
+Name = Annotated[str, Field(max_length=200)]
+"""What the model calls a body or a joint."""
+_Names = Annotated[tuple[Name, ...], Field(max_length=100)]
 _Vector = tuple[_Number, _Number, _Number]
 
 
-@dataclass(frozen=True, kw_only=True, slots=True, config=_STRICT)
+@dataclass(frozen=True, kw_only=True, slots=True, config=STRICT)
 class OwnGripper:
-    """Two fingers, and the arm that carries them. What is None is taken from the model."""
+    """An effector, and the arm that carries it. What is None is taken from the model."""
 
-    palm: _Name
-    """Body that carries the fingers."""
-    fingers: tuple[_Name, _Name]
-    """Their two joints."""
+    palm: Name
+    """Body that carries it."""
     tool: tuple[_Near, _Near, _Near]
     """Where objects are held: between the pads, in the palm's frame [m]."""
     forward: _Vector = (1.0, 0.0, 0.0)
     """Direction from the palm to the fingertips, in the palm's frame."""
-    pads: tuple[_Name, _Name] | None = None
-    """Bodies that carry the pads; the bodies of the fingers' joints if None."""
     joints: _Names | None = None
     """The arm's joints from the trunk outwards; all on the way from the root to the palm if None."""
     home: tuple[_Number, ...] | None = None
@@ -48,9 +46,13 @@ class OwnGripper:
     """Servo stiffness of all or each of these joints [N m/rad or N/m]."""
     max_force: _Positive | None = None
     """Greatest force of a pad [N]."""
+    kind: Name | None = None
+    """Its kind of effector; None if its keys tell it."""
+    effector: Annotated[Mapping[Name, Any], Field(max_length=100)] = field(default_factory=dict[str, Any])
+    """The keys of its kind, which beside the others are in the gripper's table; the kind reads them."""
 
 
-@dataclass(frozen=True, kw_only=True, slots=True, config=_STRICT)
+@dataclass(frozen=True, kw_only=True, slots=True, config=STRICT)
 class OwnRobot:
     """A model file, and what of it is a gripper, an arm, a base, a torso and a head."""
 

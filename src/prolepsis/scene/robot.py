@@ -27,33 +27,37 @@ class Joint:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class ParallelGripper:
-    """Two fingers whose pads stay parallel, driven by one motor. The gripper's frame lies between the pads: x points
-    from the palm to the fingertips, y from one pad to the other."""
+class Effector:
+    """What an arm holds things with; ``robots/effectors/`` says what each kind does. Its frame lies where it holds:
+    x points from the palm to the fingertips, y from one pad to the other."""
 
+    kind: str
+    """Name of its kind."""
     palm: str
-    """Body that carries the fingers."""
-    fingers: tuple[str, str]
-    """Their joints, which open when they grow and are coupled in the model."""
-    pads: tuple[str, str]
-    """Bodies that carry the pads, left and right."""
+    """Body that carries it."""
+    joints: tuple[str, ...]
+    """Joints that open it when they grow, all alike."""
+    pads: tuple[str, ...]
+    """Bodies with which it touches what it holds."""
+    surfaces: tuple[str, ...] = ()
+    """Geoms of these that are the pads, one each; all that can touch if none are named."""
     tool: Triple
-    """Origin of the gripper's frame in the palm's frame [m]."""
+    """Origin of its frame in the palm's frame [m]."""
     tool_orientation: Quaternion = IDENTITY
-    """The gripper's frame in the palm's, a unit quaternion (w, x, y, z)."""
+    """Its frame in the palm's, a unit quaternion (w, x, y, z)."""
     max_force: float
     """Greatest force of a pad [N]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Arm:
-    """A chain of joints that carries a gripper."""
+    """A chain of joints that carries an effector."""
 
     name: str
     """Name of the gripper in plans and facts."""
     joints: tuple[Joint, ...]
     """From the trunk outwards."""
-    gripper: ParallelGripper
+    gripper: Effector
     max_push: float
     """Greatest force of the gripper on what is in front of it that a plan may ask for [N]."""
     max_speed: float
@@ -84,7 +88,7 @@ class Robot:
 
     @property
     def joints(self) -> tuple[Joint, ...]:
-        """All driven joints but the fingers'."""
+        """All driven joints but the effectors'."""
         return (*self.base, *self.torso, *self.head, *(joint for arm in self.arms for joint in arm.joints))
 
     def arm(self, name: str) -> Arm:

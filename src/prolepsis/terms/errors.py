@@ -58,6 +58,12 @@ def brief_list(names: Iterable[str], most: int = LONGEST_LIST) -> str:
     return ", ".join(shown) or "none"
 
 
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """Return a question for a message, after what the nearest known name is; empty if none is near."""
+    near = difflib.get_close_matches(name, [*known], n=1) if len(name) <= LONGEST_VALUE else []
+    return f"; did you mean {brief(repr(near[0]))}?" if near else ""
+
+
 def error_line(error: object, most: int = LONGEST_LINE) -> str:
     """Return an error as one line of at most ``most`` characters."""
     return brief(" ".join(str(error).split()), most)
@@ -85,10 +91,8 @@ class UnknownNameError(InputError):
             where: Where it was given, such as a file and line.
         """
         names = sorted(known)
-        near = difflib.get_close_matches(name, names, n=1) if len(name) <= LONGEST_VALUE else []
-        hint = f"; did you mean {brief(repr(near[0]))}?" if near else ""
         place = f"{where}: " if where else ""
-        return cls(f"{place}no {what} named {brief(repr(name))}{hint}; known: {brief_list(names)}")
+        return cls(f"{place}no {what} named {brief(repr(name))}{did_you_mean(name, names)}; known: {brief_list(names)}")
 
 
 class KnowledgeError(InputError):

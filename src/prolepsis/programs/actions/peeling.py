@@ -147,7 +147,7 @@ def _pinch(
     pieces = [piece for piece in shelled.covered(sense) if piece.name not in tried]
     outward = {piece.name: shelled.outward(sense, piece) for piece in pieces}
     for name in sorted(outward, key=lambda name: abs(float(outward[name] @ held.across) - BEST)):
-        for found in _pinches(name, outward[name], other, there.arm.pad_shift, sense, shelled, held):
+        for found in _pinches(name, outward[name], other, there.arm.held_at, sense, shelled, held):
             offset, rotation = found.at.seen(there, reference)
             before, _ = found.at.moved(found.at.position, held.across, 0.0, APART * held.across).seen(there, reference)
             path = there.arm.way(offset, rotation, shelled.names, found.opening)
@@ -163,7 +163,7 @@ def _pinches(
     name: str,
     outward: FloatArray,
     other: Thing,
-    pad_shift: Callable[[float], float],
+    held_at: Callable[[float], tuple[float, float]],
     sense: Sense,
     shelled: _Shelled,
     held: HeldOut,
@@ -185,7 +185,8 @@ def _pinches(
         for side in (1.0, -1.0):
             pinch = side * across / float(np.linalg.norm(across))
             rotation = np.stack([ahead, pinch, np.cross(ahead, pinch)], axis=1)
-            position = np.asarray(seen.position) + along * held.across - pad_shift(width) * ahead
+            shift = held_at(width)[0] * ahead + held_at(width)[1] * pinch
+            position = np.asarray(seen.position) + along * held.across - shift
             yield _Pinch(piece=name, at=HandPose(position=position, rotation=rotation), width=width, opening=opening)
 
 

@@ -65,7 +65,7 @@ def _take(other: Thing, sense: Sense, object: Thing, held: HeldOut, reference: Q
     opening = min(width + MARGIN, other.quantities["maxOpening"])
     first: Way | None = None
     for short in SHORTS:
-        for second in held.second(short, there.arm.pad_shift(width)):
+        for second in held.second(short, there.arm.held_at(width)):
             offset, rotation = second.seen(there, reference)
             back = HandPose(position=second.position - STANDOFF * second.rotation[:, 0], rotation=second.rotation)
             before, _ = back.seen(there, reference)

@@ -1,4 +1,4 @@
-"""Control of a parallel gripper at every tick: it closes guarded, then ramps its force."""
+"""Control of an effector that pinches, at every tick: it closes guarded, then ramps its force."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from prolepsis.robots.commands import CloseGripper, Command, OpenGripper
-from prolepsis.robots.gap import Gap
+from prolepsis.robots.effectors.gap import Gap
 from prolepsis.scene.running import Running
 
 TOUCH_FORCE = 0.6
@@ -33,14 +33,16 @@ WIDTH_TOLERANCE = 1.0e-3
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class Drive:
-    """What of a model opens and closes a gripper."""
+    """What of a model opens and closes an effector."""
 
     motor: str
     """Actuator on the tendon."""
     tendon: str
-    """Joins both finger joints."""
-    pads: tuple[str, str]
+    """Joins the joints that open it."""
+    pads: tuple[str, ...]
     """Bodies that carry the pads."""
+    moving: int
+    """How many of the pads move."""
     gap: Gap
     """Gap over the length of the tendon."""
     max_force: float
@@ -52,7 +54,7 @@ class Drive:
 
 
 class GripperControl:
-    """The controller of one gripper in a running simulation."""
+    """The controller of one effector in a running simulation."""
 
     def __init__(self, state: Running, drive: Drive) -> None:
         """Take over a gripper as it is."""
@@ -94,7 +96,7 @@ class GripperControl:
 
     @property
     def length(self) -> float:
-        """Length of the tendon: the sum of both finger joints [m or rad]."""
+        """Length of the tendon: the sum of the joints [m or rad]."""
         return float(self._data.ten_length[self._tendon])
 
     @property
@@ -134,7 +136,7 @@ class GripperControl:
         force = min(goal.force, self._drive.max_force)
         touch = self._ramp_from
         lever = self._drive.gap.lever(self.length)
-        speed = abs(float(self._data.ten_velocity[self._tendon])) * lever / 2
+        speed = abs(float(self._data.ten_velocity[self._tendon])) * lever / self._drive.moving
         limit = SPEED_LIMIT
         if self._ramp is None:
             self._elapsed += dt
@@ -149,8 +151,8 @@ class GripperControl:
             if self._ramp >= RAMP_TIME + SETTLING_TIME and speed < STALL_SPEED * SPEED_LIMIT:
                 self.motion = 0
         self._motor_force = now
-        # The motor pulls at the tendon, by whose lever its force becomes a pad's; the gap's speed is twice a pad's.
-        self._set_gains(0.0, -now * lever * lever / (2 * limit))
+        # The motor pulls at the tendon, by whose lever its force becomes a pad's; all moving pads make the gap's speed.
+        self._set_gains(0.0, -now * lever * lever / (self._drive.moving * limit))
         self._data.ctrl[self._motor] = -now * lever
 
     def _move(self, goal: OpenGripper | None, dt: float) -> None:

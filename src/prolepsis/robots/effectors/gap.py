@@ -1,4 +1,4 @@
-"""The gap between the pads of a gripper as a function of how far its finger joints have opened."""
+"""The gap between the pads of an effector as a function of how far its joints have opened."""
 
 from __future__ import annotations
 
@@ -9,27 +9,29 @@ from prolepsis.geometry.shape import FloatArray
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class Gap:
-    """Gap and lever over the length of the tendon that joins both finger joints, at evenly spaced lengths."""
+    """Gap and lever over the length of the tendon that joins the joints, at evenly spaced lengths."""
 
     first: float
-    """Least length of the tendon: the sum of both joints' coordinates [m or rad]."""
+    """Least length of the tendon: the sum of the joints' coordinates [m or rad]."""
     step: float
     """Distance of two tabulated lengths [m or rad]."""
     gaps: tuple[float, ...]
     """Gap at each length [m], rising."""
     levers: tuple[float, ...]
     """Rise of the gap over the rise of the length at each length [1 or m/rad]: motor force over pad force."""
-    places: tuple[float, ...]
-    """How far along the gripper's x axis the pads' middle is at each length [m]."""
+    ahead: tuple[float, ...]
+    """How far along the effector's x axis what it holds has its middle at each length [m]."""
+    aside: tuple[float, ...]
+    """And along its y axis [m]."""
 
     @classmethod
     def sliding(cls, first: float, width: float) -> Gap:
         """Return the gap of two pads that slide: ``first`` [m] where the joints are at 0, up to ``width`` [m]."""
-        return cls(first=-first, step=width, gaps=(0.0, width), levers=(1.0, 1.0), places=(0.0, 0.0))
+        return cls(first=-first, step=width, gaps=(0.0, width), levers=(1.0, 1.0), ahead=(0.0, 0.0), aside=(0.0, 0.0))
 
     @classmethod
-    def tabulated(cls, lengths: FloatArray, gaps: FloatArray, places: FloatArray) -> Gap:
-        """Return gap and place of the pads that were measured at evenly spaced tendon lengths, each shape (n,)."""
+    def tabulated(cls, lengths: FloatArray, gaps: FloatArray, ahead: FloatArray, aside: FloatArray) -> Gap:
+        """Return the gap, and where things are held, measured at evenly spaced tendon lengths, each shape (n,)."""
         step = float(lengths[1] - lengths[0])
         inner = (gaps[2:] - gaps[:-2]) / (2 * step)
         ends = (2 * inner[0] - inner[1], 2 * inner[-1] - inner[-2])
@@ -39,7 +41,8 @@ class Gap:
             step=step,
             gaps=tuple(gaps.tolist()),
             levers=tuple(map(float, levers)),
-            places=tuple(places.tolist()),
+            ahead=tuple(ahead.tolist()),
+            aside=tuple(aside.tolist()),
         )
 
     def opening(self, length: float) -> float:
@@ -50,9 +53,15 @@ class Gap:
         """Return the rise of the gap over that of the length [1 or m/rad]."""
         return self._at(self.levers, length)
 
-    def shift(self, gap: float) -> float:
-        """Return how far along x the pads' middle is at a gap [m]."""
-        return self._at(self.places, self.length(gap))
+    def held_at(self, gap: float) -> tuple[float, float]:
+        """Return where what is held has its middle at a gap [m], along x and y of the effector's frame [m]."""
+        length = self.length(gap)
+        return self._at(self.ahead, length), self._at(self.aside, length)
+
+    @property
+    def least(self) -> float:
+        """Least gap [m]: nothing thinner is held."""
+        return self.gaps[0]
 
     @property
     def greatest(self) -> float:
