@@ -17,8 +17,10 @@ KNOTS = 40
 """Ticks between two positions at which the joints of a given course are computed."""
 
 
-def follow(hand: Thing, sense: Sense, offsets: FloatArray, rotations: FloatArray) -> Behaviour:
+def follow(hand: Thing, sense: Sense, offsets: FloatArray, rotations: FloatArray, *, loose: bool = False) -> Behaviour:
     """Go along positions and rotations, one a tick, each shape (n, 3); slower where the joints of an arm cannot follow.
+
+    ``loose`` turns may be off about the vertical where an arm of five joints cannot have them.
 
     Raises:
         ActionFailedError: If the arm cannot get there, or is pressed against something on its path.
@@ -39,7 +41,7 @@ def follow(hand: Thing, sense: Sense, offsets: FloatArray, rotations: FloatArray
             )
         return sense
     knots = np.unique(np.append(np.arange(KNOTS - 1, len(offsets), KNOTS), len(offsets) - 1))
-    path = here.arm.path(offsets[knots], rotations[knots])
+    path = here.arm.path(offsets[knots], rotations[knots], loose=loose)
     _refuse(hand, path)
     times = np.concatenate([[0.0], (knots + 1) * TICK])
     points = np.concatenate([[here.arm.joints], path.joints])

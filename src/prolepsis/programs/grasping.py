@@ -34,6 +34,8 @@ ASIDE = (0.0, 25.0, -25.0, 50.0, -50.0)
 """Yaws that are tried, from the direction in which the object lies from the shoulder [degrees]."""
 HIGHER = (0.0, 0.004, 0.008)
 """Heights over the middle that are tried, so that the fingertips clear what the object lies on [m]."""
+ADJUSTMENTS = 4
+"""Times that a grip is turned as an arm of five joints can turn the hand there, which moves its place a little."""
 ROLLS = (0.0, 90.0)
 """Rolls that are tried [degrees]: pads to the left and right, then above and below."""
 
@@ -103,19 +105,19 @@ def grasp_as_turned(hand: Thing, object: Thing, sense: Sense, height: float) -> 
     displacement = displacement_to(hand, object, sense, height)
     forward = rotate(here.orientation, (1.0, 0.0, 0.0))
     if here.arm is not None:
-        ahead, aside = here.arm.held_at(width)
-        displacement = displacement - ahead * forward - aside * rotate(here.orientation, (0.0, 1.0, 0.0))
+        ahead, across = here.arm.held_at(width)
+        displacement = displacement - ahead * forward - across * rotate(here.orientation, (0.0, 1.0, 0.0))
     return GraspPose(offset=_sum(here.offset, displacement), rotation=here.turn, width=width, forward=triple(forward))
 
 
 def grasp_poses(
     hand: Thing, object: Thing, sense: Sense, height: float, arm: Arm, reference: Quaternion, short: float = 0.0
 ) -> Iterator[GraspPose]:
-    """Yield the poses at which a hand on an arm can grasp an object, the most natural first.
+    """Yield the poses at which a hand on an arm can hold an object, the most natural first.
 
     The pads' middle stops ``short`` [m] of the middle of the object, so that another hand finds room.
     """
-    here = sense.hands[hand.name]
+    here, least = sense.hands[hand.name], hand.quantities.get("minOpening", 0.0)
     seen = as_seen(object, sense)
     position = np.asarray(seen.position) + middle(seen) + (0.0, 0.0, height)
     first = np.asarray(here.position) - np.asarray(here.offset)
@@ -128,18 +130,26 @@ def grasp_poses(
         heading = math.atan2(along[1], along[0]) - yaw_of(reference)
         yaws = sorted((heading, heading + math.pi), key=lambda yaw: abs(wrapped(yaw - bearing)))
     pitches = FROM_THE_SIDE if aside else FROM_AN_END if short else FROM_ABOVE
-    for pitch, roll, yaw, higher in itertools.product(pitches, ROLLS, yaws, HIGHER):
-        rotation = (yaw, math.radians(pitch), math.radians(roll))
+
+    def grasp_at(rotation: Triple, higher: float) -> GraspPose:
         orientation = turned(reference, rotation)
         width = grasping_width(orientation, seen)
-        if width + LEAST_MARGIN > hand.quantities["maxOpening"]:
-            continue
         forward = rotate(orientation, (1.0, 0.0, 0.0))
         level = np.array([forward[0], forward[1], 0.0]) / max(float(np.hypot(forward[0], forward[1])), 1e-9)
-        ahead, aside = arm.held_at(width)
-        held = ahead * forward + aside * rotate(orientation, (0.0, 1.0, 0.0))
+        ahead, across = arm.held_at(width)
+        held = ahead * forward + across * rotate(orientation, (0.0, 1.0, 0.0))
         offset = position + (0.0, 0.0, higher) - short * level - held - first
-        yield GraspPose(offset=triple(offset), rotation=rotation, width=width, forward=triple(forward))
+        return GraspPose(offset=triple(offset), rotation=rotation, width=width, forward=triple(forward))
+
+    for pitch, roll, yaw, higher in itertools.product(pitches, ROLLS, yaws, HIGHER):
+        pose = grasp_at((yaw, math.radians(pitch), math.radians(roll)), higher)
+        for _ in range(ADJUSTMENTS):
+            rotation = arm.feasible(pose.offset, pose.rotation)
+            if rotation == pose.rotation:
+                break
+            pose = grasp_at(rotation, higher)
+        if pose.width + LEAST_MARGIN <= hand.quantities["maxOpening"] and pose.width >= least:
+            yield pose
 
 
 def _axis(k: int) -> Triple:

@@ -117,7 +117,8 @@ class ArmHand:
         elif isinstance(command, ArmTarget):
             self._target, self._lag, self._idle = None, 0.0, 0
             self._joints, self._rates = np.array(command.joints), np.array(command.speeds)
-            self._offset, self._turn = command.offset, command.turn
+            self._offset = command.offset
+            self._turn = command.turn if self.ways.turns_freely else self.ways.place(self._joints)[1]
         else:
             self.gripper.accept(command)
 

@@ -24,6 +24,8 @@ SEARCHES = 6
 """Searches for a posture start where the arm is, at home, and at so many others between home and the ranges' ends."""
 REACH = 0.6
 """These lie up to this share of the way from home to the ends."""
+ALL_TURNS = 6
+"""Joints with which an arm can turn its hand as it likes where it gets to."""
 MARGIN, AT_THE_END = 0.1, 3.0
 """A joint nearer to the end of its range [rad] adds this to how uneasy a posture is [rad^2]: no hand goes on evenly."""
 
@@ -39,6 +41,8 @@ class ArmWays:
         """Commanded coordinates [rad], shape (n,)."""
         self.speeds = kinematics.speeds
         self.accelerations = np.array([joint.acceleration for joint in arm.joints])
+        self.turns_freely = len(arm.joints) >= ALL_TURNS
+        """Whether it can turn the hand as it likes."""
         self._kinematics = kinematics
         self._gap, self._opening_joints = gap, len(arm.gripper.joints)
         self._first = first
@@ -73,18 +77,32 @@ class ArmWays:
         """Return where what is ``width`` [m] wide has its middle when it is held, along the hand's x and y [m]."""
         return self._gap.held_at(width)
 
+    def feasible(self, offset: Triple, turn: Triple) -> Triple:
+        """Return the nearest turn to ``turn`` that is possible at a place: an arm of five joints cannot have all."""
+        if self.turns_freely:
+            return turn
+        pose, starts = self._seen(np.asarray(offset), np.asarray(turn)), (self.joints, self._kinematics.home)
+        if any(self._kinematics.solve(pose, start).is_there for start in starts):
+            return turn
+        yawed = (self._kinematics.solve(pose, start, any_yaw=True) for start in starts)
+        return next((self.place(found.joints)[1] for found in yawed if found.is_there), turn)
+
     def place(self, joints: FloatArray) -> tuple[Triple, Triple]:
         """Return place and turn of the hand with the given coordinates [rad], shape (n,)."""
         pose = [float(v) for v in compose_pose(self._mount_pose(), self._kinematics.pose(joints))]
         x, y, z = self._first
         return (pose[0] - x, pose[1] - y, pose[2] - z), turn_of(self._reference, (pose[3], pose[4], pose[5], pose[6]))
 
-    def path(self, offsets: FloatArray, turns: FloatArray) -> Way:
-        """Return the joints along places and turns, each shape (k, 3)."""
+    def path(self, offsets: FloatArray, turns: FloatArray, *, loose: bool = False) -> Way:
+        """Return the joints along places and turns, each shape (k, 3); ``loose`` turns may be off about the vertical
+        where an arm of five joints cannot have them."""
         joints: list[FloatArray] = []
         now = self.joints
         for offset, turn in zip(offsets, turns, strict=True):
-            found = self._kinematics.solve(self._seen(offset, turn), now, near=now)
+            pose = self._seen(offset, turn)
+            found = self._kinematics.solve(pose, now, near=now)
+            if loose and not found.is_there and not self.turns_freely:
+                found = self._kinematics.solve(pose, now, near=now, any_yaw=True)
             if not found.is_there:
                 return Way(joints=np.array(joints), problem="unreachable", detail=_short_by(found))
             now = found.joints
@@ -227,6 +245,6 @@ def _starts(kinematics: ArmKinematics) -> list[FloatArray]:
 
 
 def _short_by(found: Found) -> str:
-    if found.distance > found.angle:
-        return f"stays {found.distance * 1000:.0f} mm away"
-    return f"stays {np.degrees(found.angle):.0f} degrees away"
+    millimetres, degrees = found.distance * 1000, float(np.degrees(found.angle))
+    value, unit = (millimetres, "mm") if found.distance > found.angle else (degrees, "degrees")
+    return f"stays {value:.{0 if value >= 1.0 else 1}f} {unit} away"

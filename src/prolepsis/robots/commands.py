@@ -150,12 +150,17 @@ class Arm(Protocol):
         """Return where what is ``width`` [m] wide has its middle when it is held, along the hand's x and y [m]."""
         ...
 
+    def feasible(self, offset: Triple, turn: Triple) -> Triple:
+        """Return the nearest turn to ``turn`` that is possible at a place: an arm of five joints cannot have all."""
+        ...
+
     def place(self, joints: FloatArray) -> tuple[Triple, Triple]:
         """Return place and turn of the hand with the given coordinates [rad], shape (n,)."""
         ...
 
-    def path(self, offsets: FloatArray, turns: FloatArray) -> Way:
-        """Return the joints along places and turns one after the other, each shape (k, 3), from where they are."""
+    def path(self, offsets: FloatArray, turns: FloatArray, *, loose: bool = False) -> Way:
+        """Return the joints along places and turns one after the other, each shape (k, 3), from where they are;
+        ``loose`` turns may be off about the vertical where an arm of five joints cannot have them."""
         ...
 
     def way(

@@ -150,10 +150,13 @@ class ArmKinematics:
             self._here, self._tasks, duration, solver="daqp", damping=DAMPING, limits=self._moving
         )
 
-    def solve(self, pose: FloatArray, start: FloatArray, near: FloatArray | None = None) -> Found:
+    def solve(
+        self, pose: FloatArray, start: FloatArray, near: FloatArray | None = None, *, any_yaw: bool = False
+    ) -> Found:
         """Return coordinates that put the gripper at ``pose``, or as near as a search from ``start`` gets.
 
-        Of all that do, those near home are sought, or near to other coordinates, ``near``.
+        Of all that do, those near home are sought, or near to other coordinates, ``near``. With ``any_yaw`` the gripper
+        may be turned about the vertical: an arm of five joints gets nowhere else.
         """
         joints = start.copy()
         best: Found | None = None
@@ -173,6 +176,8 @@ class ArmKinematics:
             mujoco.mju_subQuat(back, goal[3:], turn)
             error[:3] = goal[:3] - data.site_xpos[self._site]
             error[3:] = data.site_xmat[self._site].reshape(3, 3) @ back
+            if any_yaw:
+                error[5], jacobian[5] = 0.0, 0.0
             here = Found(
                 joints=joints.copy(),
                 distance=math.sqrt(float(error[:3] @ error[:3])),

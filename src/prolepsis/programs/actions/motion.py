@@ -63,7 +63,7 @@ def travel(hand: Thing, sense: Sense, displacement: Triple, acceleration: float,
     start, rotation = sense.hands[hand.name].offset, sense.hands[hand.name].turn
     if sense.hands[hand.name].arm is not None:
         steps = np.array([step for step, _ in line(displacement, acceleration, speed)])
-        return (yield from follow(hand, sense, steps + start, np.tile(rotation, (len(steps), 1))))
+        return (yield from follow(hand, sense, steps + start, np.tile(rotation, (len(steps), 1)), loose=True))
     for step, velocity in line(displacement, acceleration, speed):
         offset = (start[0] + step[0], start[1] + step[1], start[2] + step[2])
         sense = yield (HandTarget(hand=hand.name, offset=offset, velocity=velocity, turn=rotation),)
@@ -160,7 +160,7 @@ def _reach_by_arm(
             step = triple(np.subtract(pose.offset, pose.before(back)))
             return (yield from travel(hand, sense, step, 2.0, speed))
     if first is None:
-        raise ActionFailedError("not_graspable", f"{object.name} is too wide for {hand.name} as it lies")
+        raise ActionFailedError("not_graspable", f"{object.name} is too wide or too thin for {hand.name} as it lies")
     raise ActionFailedError(first.problem, f"{object.name} by {hand.name}: {first.detail}")
 
 
