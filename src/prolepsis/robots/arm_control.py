@@ -49,7 +49,6 @@ class ArmHand:
         self._idle = 0
         self._lag = 0.0
         self._bump = ""
-        self._version = -1
         mount, palm = self._prefix + self._kinematics.mount, self._prefix + gripper.palm
         self._names = (mount, palm)
         self._joints: FloatArray = self._kinematics.home.copy()
@@ -66,9 +65,6 @@ class ArmHand:
 
     def bind(self, state: Running) -> None:
         """Look the arm up in a model that is new."""
-        if self._version == state.version:
-            return
-        self._version = state.version
         self._idle = min(self._idle, 2)
         self.gripper.bind(state)
         model: Any = state.model
@@ -124,7 +120,6 @@ class ArmHand:
 
     def act(self, state: Running, dt: float) -> None:
         """Set the motors for the coming tick of ``dt`` [s]."""
-        self.bind(state)
         if self._target is not None:
             if self._idle % PERIOD == 0:
                 self._solve(self._target, PERIOD * dt)

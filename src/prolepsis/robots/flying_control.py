@@ -27,7 +27,6 @@ class FlyingHand:
         self._stiffness = hand.position_gain
         self._lags = np.repeat([hand.velocity_gain / hand.position_gain, hand.turn_damping / hand.turn_gain], 3)
         self._target = HandTarget(hand=self.name, offset=(0.0, 0.0, 0.0))
-        self._version = -1
         drive = Drive(
             motor=f"{self.name}/gap",
             tendon=f"{self.name}/gap",
@@ -43,9 +42,6 @@ class FlyingHand:
 
     def bind(self, state: Running) -> None:
         """Look the hand up in a model that is new."""
-        if self._version == state.version:
-            return
-        self._version = state.version
         self.gripper.bind(state)
         model: Any = state.model
         self._model, self._data = model, state.data
@@ -62,7 +58,6 @@ class FlyingHand:
 
     def act(self, state: Running, dt: float) -> None:
         """Set the motors for the coming tick of ``dt`` [s]."""
-        self.bind(state)
         target = self._target
         # The base's target runs ahead by the lag that the servo's damping causes.
         where = np.array([*target.offset, *target.turn])

@@ -26,14 +26,10 @@ class Trunk:
         self._speeds = {joint.name: joint.speed for joint in joints}
         self._accelerations = {joint.name: joint.acceleration for joint in joints}
         self._root = f"{name}/{robot_model(robot).root}"
-        self._version = -1
         self.bind(state)
 
     def bind(self, state: Running) -> None:
         """Look the robot up in a model that is new."""
-        if self._version == state.version:
-            return
-        self._version = state.version
         self._fresh = True
         model: Any = state.model
         self._data = state.data
@@ -57,7 +53,6 @@ class Trunk:
 
     def act(self, state: Running) -> None:
         """Set the motors for the coming tick."""
-        self.bind(state)
         if self._fresh and len(self._servos):
             self._fresh = False
             self._data.ctrl[self._servos] = [

@@ -72,15 +72,11 @@ class GripperControl:
         self._ramp_from = 0.0
         self._motor_force = 0.0
         self._gains = (0.0, 0.0)
-        self._version = -1
         self.bind(state)
         self._width = self.opening
 
     def bind(self, state: Running) -> None:
         """Look the gripper up in a model that is new."""
-        if self._version == state.version:
-            return
-        self._version = state.version
         model: Any = state.model
         self._model, self._data = model, state.data
         self._motor = int(model.actuator(self._drive.motor).id)
