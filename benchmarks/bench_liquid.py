@@ -12,15 +12,14 @@ from typing import Any
 
 import numpy as np
 
+from prolepsis.engine.composing import compose_scene
 from prolepsis.engine.simulation import simulate
 from prolepsis.engine.world import compile_world
-from prolepsis.matter.kinds import known_kinds
 from prolepsis.matter.liquids import flowing
 from prolepsis.matter.liquids.kind import Liquids
 from prolepsis.matter.liquids.solver import COURANT, Effort
 from prolepsis.programs import read_program
 from prolepsis.projection import read_scenario
-from prolepsis.scene.compose import compose
 from prolepsis.scene.kind import Controller
 from prolepsis.scene.running import Running
 from prolepsis.system.mujoco import mujoco
@@ -56,7 +55,7 @@ def pour(liquid: str, count: int, duration: float) -> tuple[float, float, Effort
         "liq1.density": density,
     }
     read = read_scenario(POURING, settings)
-    scene = compose(read.knowledge_base(), known_kinds(), particles=read.particles)
+    scene = compose_scene(read.knowledge_base(), particles=read.particles)
     program = read_program(read.bound_plan(), scene)
     made: list[flowing.Flowing] = []
     begun: list[float] = []

@@ -14,13 +14,12 @@ from typing import Any
 import numpy as np
 
 from prolepsis.campaigns.campaign import sweep
+from prolepsis.engine.composing import compose_scene
 from prolepsis.engine.simulation import simulate
 from prolepsis.engine.state import State
 from prolepsis.engine.world import World, compile_world
-from prolepsis.matter.kinds import known_kinds
 from prolepsis.programs import read_program
 from prolepsis.projection import read_scenario
-from prolepsis.scene.compose import compose
 from prolepsis.system.mujoco import mujoco
 
 SCENARIO = Path(__file__).parent.parent / "examples" / "pr2_grasp.toml"
@@ -37,7 +36,7 @@ OUTCOMES = ("slip", "hold", "crush")
 def rows() -> Iterator[tuple[str, str, str]]:
     """Yield name, measured value and target of each benchmark."""
     scenario = read_scenario(SCENARIO, {})
-    scene = compose(scenario.knowledge_base(), known_kinds())
+    scene = compose_scene(scenario.knowledge_base())
     world = compile_world(scene)
     program = read_program(scenario.bound_plan(), scene)
     best = dict.fromkeys(PHASES, 0.0)

@@ -7,15 +7,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeVar
 
+from prolepsis.engine.composing import compose_scene
 from prolepsis.engine.simulation import simulate
 from prolepsis.engine.state import State
 from prolepsis.engine.world import compile_world
 from prolepsis.knowledge import KnowledgeBase
 from prolepsis.log.log import Log
-from prolepsis.matter.kinds import known_kinds
-from prolepsis.matter.liquids.filling import DEFAULT_PARTICLES
 from prolepsis.programs import read_program
-from prolepsis.scene.compose import compose
+from prolepsis.scenario.file import DEFAULT_PARTICLES
 from prolepsis.scene.kind import Controller
 from prolepsis.scene.scene import Scene
 from prolepsis.terms.terms import parse_term
@@ -36,7 +35,7 @@ def scene(turtle: str, values: Mapping[str, float | str] | None = None, particle
         file = Path(folder) / "situation.ttl"
         file.write_text(PREFIX + turtle, encoding="utf-8")
         knowledge = KnowledgeBase.load(file)
-    return compose(knowledge.with_values(values) if values else knowledge, known_kinds(), particles=particles)
+    return compose_scene(knowledge.with_values(values) if values else knowledge, particles=particles)
 
 
 def run(

@@ -18,15 +18,14 @@ import pytest
 from tests.scenes import EGG_IN_HAND, run, scene
 
 import prolepsis
+from prolepsis.engine.composing import compose_scene
 from prolepsis.engine.simulation import simulate
 from prolepsis.engine.world import compile_world
 from prolepsis.fluents import fact_types, recognize
 from prolepsis.knowledge import KnowledgeBase
 from prolepsis.log.fact_types import ACTION_EVENTS
-from prolepsis.matter.kinds import known_kinds
 from prolepsis.programs import ACTIONS, read_program
 from prolepsis.projection import project
-from prolepsis.scene.compose import compose
 from prolepsis.terms.terms import parse_term
 
 PAGE = (Path(__file__).parents[1] / "docs" / "how-to.md").read_text(encoding="utf-8")
@@ -57,7 +56,7 @@ def defined(section: str) -> dict[str, Any]:
 def test_an_object_is_a_few_lines_of_turtle(tmp_path: Path) -> None:
     file = tmp_path / "plate.ttl"
     file.write_text(example("An object", "turtle"), encoding="utf-8")
-    scene = compose(KnowledgeBase.load(file), known_kinds())
+    scene = compose_scene(KnowledgeBase.load(file))
     log = simulate(compile_world(scene), read_program(parse_term("wait(0.3)"), scene))
     timeline = recognize(log, domain=scene.domain)
     assert timeline.ask("holds(supports(plate1,block1), T), holds(supports(floor,plate1), T)")

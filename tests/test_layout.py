@@ -10,7 +10,7 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "prolepsis"
-GENERAL = ("engine/simulation", "engine/state", "engine/world", "engine/recorder", "scene/compose", "report/stage")
+GENERAL = ("engine/simulation", "engine/state", "engine/world", "engine/recording", "scene/compose", "report/stage")
 """What knows kinds of matter, of hands and of robots only by the steps of ``scene/kind.py``."""
 KINDS = re.compile(r"eggs?|shell(s|ed)?|panels?|yolks?|fingers?|sponges?|bowls?", re.IGNORECASE)
 LONGEST = 400

@@ -150,13 +150,12 @@ def project_into(
     tell("reading the knowledge")
     knowledge = read.knowledge_base()
     # What physics imports takes a moment, and a wrong scenario is refused before it.
+    from prolepsis.engine.composing import compose_scene
     from prolepsis.engine.simulation import simulate
     from prolepsis.engine.world import compile_world
     from prolepsis.fluents import recognize
-    from prolepsis.matter.kinds import known_kinds
     from prolepsis.programs import check_units, read_program
     from prolepsis.robots.loading import load_robot
-    from prolepsis.scene.compose import compose
     from prolepsis.scene.particles import PERIOD
     from prolepsis.scene.running import TICK
 
@@ -164,7 +163,7 @@ def project_into(
         tell("compiling the kernels of liquids, once, in about a minute")
     own = read.robot if isinstance(read.robot, OwnRobot) else None
     robot = None if own is None else load_robot(own, read.path.parent, f"{read.path}: robot")
-    scene = compose(knowledge, known_kinds(robot), particles=read.particles)
+    scene = compose_scene(knowledge, robot=robot, particles=read.particles)
     check_units(read.plan, {name: each.unit for name, each in read.parameters.items()})
     program = read_program(read.bound_plan(), replace(scene, folder=read.path.parent))
     tell("building the world")

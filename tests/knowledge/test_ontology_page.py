@@ -7,12 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from prolepsis.engine.composing import compose_scene
 from prolepsis.knowledge import KnowledgeBase
 from prolepsis.knowledge.masses import TOLERANCE
 from prolepsis.knowledge.reasoner import LIMIT_VARIABLE, TIME_LIMIT
-from prolepsis.matter.kinds import known_kinds
 from prolepsis.scenario.scenario import FEWEST_PARTICLES, MOST_PARTICLES, Scenario
-from prolepsis.scene.compose import compose
 from prolepsis.terms.terms import format_value
 
 PAGE = Path(__file__).parents[2] / "docs" / "ontology.md"
@@ -36,7 +35,7 @@ def test_the_liquids_of_the_page_are_filled_in_where_it_says(tmp_path: Path) -> 
     base = KnowledgeBase.load(path)
     assert base.quantity("liq1", "volume") == pytest.approx(0.8 * base.quantity("cup1", "capacity"))
     assert base.quantity("liq2", "viscosity") == pytest.approx(60.0)
-    made = compose(base, known_kinds(), particles=1000)
+    made = compose_scene(base, particles=1000)
     assert {pool.stuff: pool.holder for pool in made.pools} == {"liq1": None, "liq2": None, "liq3": "sponge1"}
     assert len(made.thing("cup2").shape.holes) == 3
 

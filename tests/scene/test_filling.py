@@ -10,14 +10,13 @@ import pytest
 from scipy import spatial  # pyright: ignore[reportMissingTypeStubs]
 from tests.scenes import PREFIX, scene
 
+from prolepsis.engine.composing import compose_scene
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.geometry.signed_distance import field_of
 from prolepsis.geometry.solids import matrix
 from prolepsis.knowledge import KnowledgeBase
 from prolepsis.log.things import Thing
-from prolepsis.matter.kinds import known_kinds
 from prolepsis.matter.liquids.basin import basin_of
-from prolepsis.scene.compose import compose
 from prolepsis.scene.scene import Pool, Scene
 from prolepsis.scene.shapes import SHAPES
 from prolepsis.terms.errors import KnowledgeError
@@ -69,7 +68,7 @@ def test_the_surface_is_as_high_as_the_volume_says(particles: int, tmp_path: Any
     (tmp_path / "s.ttl").write_text(
         f"{PREFIX}{TABLE} :cup1 a :Cup ; :on :table1 ; :contains :liq1 . :liq1 a :Water ; :volume 0.0002 ."
     )
-    made = compose(KnowledgeBase.load(tmp_path / "s.ttl"), known_kinds(), particles=particles)
+    made = compose_scene(KnowledgeBase.load(tmp_path / "s.ttl"), particles=particles)
     pool, base = pool_of(made), made.thing("cup1").position[2]
     level = BOTTOM + 0.0002 / (math.pi * INNER**2)
     assert len(pool.position) == particles

@@ -11,6 +11,7 @@ import pytest
 from tests.knowledge.situations import load
 from tests.scenes import run, scene
 
+from prolepsis.engine.placing import resting_height
 from prolepsis.engine.simulation import simulate
 from prolepsis.engine.world import compile_world
 from prolepsis.log.files import read_log, write_log
@@ -83,7 +84,7 @@ class Claiming(Kind):
 def test_what_two_kinds_claim_is_refused(tmp_path: Path) -> None:
     known = load(tmp_path, FLOOR + ":egg1 a :Egg ; :on :floor .")
     with pytest.raises(KnowledgeError, match="egg1 .Egg. is each of Egg, Shelled; allowed: one of them"):
-        compose(known, (*known_kinds(), Claiming()))
+        compose(known, (*known_kinds(), Claiming()), resting_height, 100)
 
 
 class Ageing(Kind):

@@ -10,12 +10,11 @@ import numpy as np
 import pytest
 import trimesh
 
+from prolepsis.engine.composing import compose_scene
 from prolepsis.geometry import turned
 from prolepsis.geometry.meshes import enclosed_volume, read_surface
 from prolepsis.geometry.solids import solid_of
 from prolepsis.knowledge import KnowledgeBase
-from prolepsis.matter.kinds import known_kinds
-from prolepsis.scene.compose import compose
 from prolepsis.scene.shapes.mesh import mesh
 from prolepsis.terms.errors import KnowledgeError
 
@@ -92,7 +91,7 @@ def test_a_mesh_is_a_vessel_that_is_weighed_and_filled(tmp_path: Path) -> None:
         ':pot1 a :Vessel ; :shape :mesh ; :file "cup.stl" ; :density 2300.0 ; :on :table1 ; :contains :liq1 . '
         ":liq1 a :Water ; :fill 0.5 ."
     )
-    made = compose(KnowledgeBase.load(tmp_path / "s.ttl"), known_kinds(), particles=500)
+    made = compose_scene(KnowledgeBase.load(tmp_path / "s.ttl"), particles=500)
     assert made.thing("pot1").mass == pytest.approx(2300.0 * SHARE * CUP.volume, rel=1e-4)
     (pool,) = made.pools
     # The distances of a mesh lie on a grid of 1.2 mm, which rounds its edges off.

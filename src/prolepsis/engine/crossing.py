@@ -13,7 +13,7 @@ from functools import partial
 
 import numpy as np
 
-from prolepsis.engine.matter import Matter, Stretch
+from prolepsis.engine.stretches import Matter, Stretch
 from prolepsis.engine.turning import matrices
 from prolepsis.geometry.shape import BoolArray, FloatArray, Geom, IntArray
 from prolepsis.geometry.solids import Solid, solid_of

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from prolepsis.engine.matter import Stretch
+from prolepsis.engine.stretches import Stretch
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.log import FREE, Contacts, Joints, Particles
 from prolepsis.log.things import Thing

@@ -10,7 +10,7 @@ import numpy as np
 
 from prolepsis.geometry.shape import IntArray, quaternion, triple
 from prolepsis.log.things import FIXED, FREE, Mount, Thing, jointed
-from prolepsis.scene.shapes.from_model import shape_of_geoms
+from prolepsis.robots.model_shapes import shape_of_geoms
 from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.errors import InputError, UnknownNameError
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from prolepsis.engine.matter import Matter, Stretch
+from prolepsis.engine.stretches import Matter, Stretch
 from prolepsis.engine.turning import rotated
 from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.geometry.solids import Solid, solid_of

@@ -11,10 +11,9 @@ import numpy as np
 
 from prolepsis.engine.channels import Channels, chosen_channels
 from prolepsis.engine.crossing import crossings
-from prolepsis.engine.frames import Frames
 from prolepsis.engine.gaining import Surroundings, gains
 from prolepsis.engine.reaching import reaches
-from prolepsis.engine.recorder import Recorder
+from prolepsis.engine.recording import Frames, Recorder
 from prolepsis.engine.sinking import sinkings
 from prolepsis.engine.state import State
 from prolepsis.engine.world import World

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from prolepsis.engine.matter import Matter
+from prolepsis.engine.stretches import Matter
 from prolepsis.geometry.shape import FloatArray, Geom, IntArray
 from prolepsis.geometry.solids import solid_of
 from prolepsis.log.things import Thing

@@ -82,6 +82,11 @@ def read_spec(robot: Robot) -> Any:
         raise ScenarioError(f"{robot.file}: the robot cannot be read: {' '.join(str(error).split())}") from None
 
 
+def unit_of(model: Any, joint: int) -> str:
+    """Return the unit of a joint's coordinate, ``m`` or ``rad``."""
+    return "m" if int(model.jnt_type[joint]) == int(mujoco.mjtJoint.mjJNT_SLIDE) else "rad"
+
+
 def _single(model: Any) -> list[int]:
     """Return the joints that have one coordinate."""
     kinds = (int(mujoco.mjtJoint.mjJNT_SLIDE), int(mujoco.mjtJoint.mjJNT_HINGE))

@@ -10,10 +10,10 @@ from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.log.things import WITHIN, Mount, Thing, jointed
 from prolepsis.robots.hand import rotate
 from prolepsis.robots.model import RobotModel, robot_model
+from prolepsis.robots.model_shapes import shape_of
 from prolepsis.robots.pr2 import PR2
 from prolepsis.robots.turned import product
 from prolepsis.scene.robot import Robot
-from prolepsis.scene.shapes.from_model import shape_of
 from prolepsis.terms.errors import KnowledgeError, ScenarioError, UnknownNameError
 
 KNOWN = {PR2.kind: PR2}

@@ -10,10 +10,10 @@ from prolepsis.log.things import Thing
 from prolepsis.robots.effectors.kind import KINDS
 from prolepsis.robots.model import robot_model
 from prolepsis.robots.model_file import OTHERS, OWN
+from prolepsis.robots.model_shapes import touches
 from prolepsis.scene.kind import Building
 from prolepsis.scene.robot import Arm, Joint, Robot
 from prolepsis.scene.scene import Scene
-from prolepsis.scene.shapes.from_model import touches
 from prolepsis.system.mujoco import mujoco
 
 FIRST_ARM, MOST_ARMS = 4, 29

@@ -7,22 +7,18 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-import numpy as np
-
-from prolepsis.geometry.shape import Quaternion, Shape
+from prolepsis.geometry.rotations import from_angles
+from prolepsis.geometry.shape import Shape
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.knowledge.situation import MOST_INDIVIDUALS
 from prolepsis.log.things import FIXED, FREE, Thing
-from prolepsis.scenario.file import DEFAULT_PARTICLES
 from prolepsis.scene.coherence import refuse_nonsense
 from prolepsis.scene.colours import colour_of
-from prolepsis.scene.kind import Draft, Individuals, Kind, Made, Roles
-from prolepsis.scene.placing import resting_height
+from prolepsis.scene.kind import Draft, Individuals, Kind, Made, RestingHeight, Roles
 from prolepsis.scene.scene import Pool, Scene
 from prolepsis.scene.shapes import SHAPES
 from prolepsis.scene.shapes.holes import refuse_holes
 from prolepsis.scene.shapes.mesh import mesh
-from prolepsis.system.mujoco import mujoco
 from prolepsis.system.threads import one_thread
 from prolepsis.terms.errors import KnowledgeError, brief_list
 
@@ -36,12 +32,13 @@ MESH_SHAPE = "mesh"
 
 
 @one_thread()
-def compose(kb: KnowledgeBase, kinds: Sequence[Kind], *, particles: int = DEFAULT_PARTICLES) -> Scene:
+def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHeight, particles: int) -> Scene:
     """Return the scene of a situation.
 
     Args:
         kb: The situation.
         kinds: The kinds of matter, hands and robots that there may be.
+        resting_height: Finds where a thing rests.
         particles: Number of particles of the largest liquid.
 
     Raises:
@@ -70,12 +67,17 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], *, particles: int = DEFAUL
     for name in _supporters_first([name for name in wholes if name not in made], below):
         thing = _thing(kb, name, roles, owners[name].shapes)
         if name in below:
-            thing = _put_on(thing, below[name], made[below[name]].things if below[name] in made else ())
+            under = made[below[name]].things if below[name] in made else ()
+            thing = _put_on(thing, below[name], under, resting_height)
         made[name] = owners[name].parts(individuals, thing)
     things = {name: each.things for name, each in made.items()}
     pools: tuple[Pool, ...] = ()
     for kind in kinds:
-        new, more = kind.fill(Draft(individuals=individuals, things=things, pools=pools, particles=particles))
+        new, more = kind.fill(
+            Draft(
+                individuals=individuals, things=things, pools=pools, particles=particles, resting_height=resting_height
+            )
+        )
         things, pools = {**things, **new}, pools + more
     return Scene(
         things=tuple(thing for name in names for thing in things[name]),
@@ -132,13 +134,13 @@ def _thing(kb: KnowledgeBase, name: str, roles: Roles, later: Collection[str] | 
     default_height = 0.0
     if fixed and built.geoms and built.geoms[0].type != "plane":
         default_height = quantities.get("height", 0.0) / 2
-    orientation = _orientation(quantities)
+    yaw, pitch, roll = (quantities.get(angle, 0.0) for angle in ("yaw", "pitch", "roll"))
     return Thing(
         name=name,
         kind=kind,
         shape=replace(built, colour=colour_of(kb, name)),
         position=(quantities.get("x", 0.0), quantities.get("y", 0.0), quantities.get("z", default_height)),
-        orientation=orientation,
+        orientation=from_angles((yaw, pitch, roll)),
         mass=quantities.get("mass", 0.0),
         roles=roles(name),
         mount=FIXED if fixed else FREE,
@@ -165,23 +167,7 @@ def _built(kb: KnowledgeBase, name: str, shape: str, quantities: dict[str, float
         raise KnowledgeError(f"{name} ({kb.kind(name)}): {error}") from None
 
 
-def _orientation(q: dict[str, float]) -> Quaternion:
-    """Return the quaternion of yaw about z, then pitch about y, then roll about x [rad]."""
-    result = np.array([1.0, 0.0, 0.0, 0.0])
-    for angle, axis in (
-        (q.get("yaw", 0.0), (0, 0, 1)),
-        (q.get("pitch", 0.0), (0, 1, 0)),
-        (q.get("roll", 0.0), (1, 0, 0)),
-    ):
-        turn, product = np.zeros(4), np.zeros(4)
-        mujoco.mju_axisAngle2Quat(turn, np.asarray(axis, dtype=np.float64), angle)
-        mujoco.mju_mulQuat(product, result, turn)
-        result = product
-    w, x, y, z = (float(v) for v in result)
-    return (w, x, y, z)
-
-
-def _put_on(thing: Thing, name: str, under: tuple[Thing, ...]) -> Thing:
+def _put_on(thing: Thing, name: str, under: tuple[Thing, ...], resting_height: RestingHeight) -> Thing:
     """Return the thing lowered onto what it rests on; unless stated, its x and y are those of the supporter."""
     solid = [t for t in under if t.shape.geoms and t.is_body]
     if not thing.shape.geoms:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from prolepsis.geometry.rotations import matrix
 from prolepsis.geometry.shape import FloatArray, Geom, Quaternion
 from prolepsis.log.things import Thing
-from prolepsis.system.mujoco import mujoco
 
 
 def support(thing: Thing, direction: FloatArray) -> float:
@@ -25,12 +25,9 @@ def middle(thing: Thing) -> FloatArray:
 
 
 def _reach(geom: Geom, orientation: Quaternion, direction: FloatArray) -> float:
-    turn = np.zeros(9)
-    mujoco.mju_quat2Mat(turn, np.asarray(orientation, dtype=np.float64))
-    local = turn.reshape(3, 3).T @ direction
+    local = matrix(np.asarray(orientation)).T @ direction
     offset = float(np.asarray(geom.position) @ local)
-    mujoco.mju_quat2Mat(turn, np.asarray(geom.orientation, dtype=np.float64))
-    own = turn.reshape(3, 3).T @ local
+    own = matrix(np.asarray(geom.orientation)).T @ local
     size = np.asarray(geom.size)
     if geom.type == "sphere":
         return offset + float(size[0])

@@ -16,6 +16,8 @@ from prolepsis.log.things import Thing
 from prolepsis.scene.running import MAX_STEP, Running
 from prolepsis.scene.scene import Pool, Scene
 
+RestingHeight = Callable[[Thing, Sequence[Thing]], float]
+"""Returns the height of a thing's frame [m] at which it first touches bodies when it is lowered onto them."""
 Roles = Callable[[str], frozenset[str]]
 """Returns of an individual the classes that physics or recognition goes by."""
 
@@ -51,6 +53,7 @@ class Draft:
     """What flows, so far."""
     particles: int
     """Number of particles of the largest liquid."""
+    resting_height: RestingHeight
 
 
 class Building(Protocol):

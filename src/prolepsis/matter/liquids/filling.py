@@ -14,10 +14,9 @@ from prolepsis.matter.liquids.basin import Basin, basin_of
 from prolepsis.matter.liquids.liquids import Place
 from prolepsis.matter.liquids.packing import lattice, lowest, relaxed
 from prolepsis.matter.liquids.region import Region, box_of
-from prolepsis.scenario.file import DEFAULT_PARTICLES
 from prolepsis.scenario.scenario import FEWEST_PARTICLES, MOST_PARTICLES
+from prolepsis.scene.kind import RestingHeight
 from prolepsis.scene.placed import Placed, nearest, placed
-from prolepsis.scene.placing import resting_height
 from prolepsis.scene.scene import Pool
 from prolepsis.terms.errors import KnowledgeError
 
@@ -33,7 +32,8 @@ def fill(
     liquids: Sequence[Thing],
     places: Mapping[str, Place],
     solids: Mapping[str, tuple[Thing, ...]],
-    particles: int = DEFAULT_PARTICLES,
+    resting_height: RestingHeight,
+    particles: int,
 ) -> tuple[tuple[Thing, ...], tuple[Pool, ...]]:
     """Return the liquids with their masses and positions, and a pool for each.
 
@@ -41,6 +41,7 @@ def fill(
         liquids: What flows, with density and volume, or the fill of its container.
         places: Where each of them is.
         solids: The bodies of each whole, at their poses.
+        resting_height: Finds where a thing rests.
         particles: Number of particles of the largest liquid.
 
     Raises:
@@ -63,7 +64,9 @@ def fill(
     for each in liquids:
         place = places[each.name]
         if place.relation == "on":
-            found[each.name] = _puddle(each, solids[place.host], volumes[each.name], counts[each.name], spacing, matter)
+            found[each.name] = _puddle(
+                each, solids[place.host], volumes[each.name], counts[each.name], spacing, matter, resting_height
+            )
         elif place.relation == "absorbs":
             found[each.name] = _soaked(each, solids[place.host], counts[each.name])
     made = tuple(_settled(each, volumes[each.name], found[each.name]) for each in liquids)
@@ -162,7 +165,13 @@ def _poured(
 
 
 def _puddle(
-    liquid: Thing, under: tuple[Thing, ...], volume: float, count: int, spacing: float, matter: tuple[Placed, ...]
+    liquid: Thing,
+    under: tuple[Thing, ...],
+    volume: float,
+    count: int,
+    spacing: float,
+    matter: tuple[Placed, ...],
+    resting_height: RestingHeight,
 ) -> FloatArray:
     """Return the particles of a puddle as thick as its surface tension makes it, but no thinner than one layer."""
     q = liquid.quantities

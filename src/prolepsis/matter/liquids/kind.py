@@ -37,7 +37,7 @@ class Liquids(Kind):
         liquids = [liquid_thing(draft.individuals.kb, name, draft.individuals.roles(name)) for name in names]
         places = {name: place_of(draft.individuals.kb, name) for name in names}
         solids = {name: tuple(thing for thing in made if thing.is_body) for name, made in draft.things.items()}
-        filled, pools = fill(liquids, places, solids, draft.particles)
+        filled, pools = fill(liquids, places, solids, draft.resting_height, draft.particles)
         return {each.name: (each,) for each in filled}, pools
 
     def start(self, state: Running) -> Sequence[Controller]:

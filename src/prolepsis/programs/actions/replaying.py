@@ -29,11 +29,10 @@ from prolepsis.robots.commands import (
     Sense,
 )
 from prolepsis.robots.hand import HAND as FREE_HAND
-from prolepsis.robots.model import robot_model
+from prolepsis.robots.model import robot_model, unit_of
 from prolepsis.robots.turned import turn_of
 from prolepsis.scene.robot import Joint
 from prolepsis.scene.scene import Scene, reference_of, robot_of_gripper
-from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.errors import PlanError
 
 START_SPEED = 0.25
@@ -66,7 +65,7 @@ def _can_replay(scene: Scene, *, hand: Thing, file: Path) -> None:
         positions = recording.joints[joint.name]
         model: Any = robot_model(scene.robots[str(robot_of_gripper(scene, hand))]).model
         number = model.joint(joint.name).id
-        unit = "m" if int(model.jnt_type[number]) == int(mujoco.mjtJoint.mjJNT_SLIDE) else "rad"
+        unit = unit_of(model, number)
         if model.jnt_limited[number]:
             low, high = (float(value) for value in model.jnt_range[number])
             _refuse_beyond(recording, positions, low, high, f"joint {joint.name}", unit)

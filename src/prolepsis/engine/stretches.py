@@ -1,4 +1,4 @@
-"""Matter: which solids of a model can touch which, and from when to when it is that model."""
+"""Stretches of a run in which the model stays the same: what can touch what, what moves freely, what is driven."""
 
 from __future__ import annotations
 
@@ -8,9 +8,69 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.engine.bodies import Bodies
-from prolepsis.geometry.shape import BoolArray, Geom, IntArray
+from prolepsis.engine.turning import product, rotated
+from prolepsis.geometry.shape import BoolArray, FloatArray, Geom, IntArray
 from prolepsis.log.things import Thing
+from prolepsis.system.mujoco import mujoco
+
+BACK = np.array([1.0, -1.0, -1.0, -1.0])
+"""Times this, a quaternion turns back."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class Bodies:
+    """What the n things of a run are while the model stays the same."""
+
+    free: BoolArray
+    """Whether each is a body that moves freely, shape (n,)."""
+    driven: BoolArray
+    """Whether each is a body with joints, that motors or springs may move, shape (n,)."""
+    number: IntArray
+    """Its MuJoCo body, 0 if it is none, shape (n,)."""
+    mass: FloatArray
+    """[kg], shape (n,)."""
+    inertia: FloatArray
+    """Moments about the main axes over the mass [m^2], shape (n, 3)."""
+    centre: FloatArray
+    """Centre of mass in the body's frame [m], shape (n, 3)."""
+    axes: FloatArray
+    """Main axes in the body's frame, unit quaternions, shape (n, 4)."""
+
+    @classmethod
+    def of(cls, model: Any, body_of: IntArray) -> Bodies:
+        """Return the bodies of a model, of which ``body_of`` tells each thing's, 0 for none."""
+        mass = np.where(body_of > 0, model.body_mass[body_of], 0.0)
+        unjointed = np.zeros(model.nbody, dtype=np.bool_)
+        unjointed[model.jnt_bodyid[model.jnt_type == int(mujoco.mjtJoint.mjJNT_FREE)]] = True
+        # What has parts on joints, as a bowl with walls that give way, stores energy in their springs.
+        jointed = np.bincount(model.body_rootid[model.body_dofnum > 0], minlength=model.nbody) > 1
+        free = unjointed[body_of] & ~jointed[model.body_rootid[body_of]]
+        return cls(
+            free=free,
+            driven=~free & (model.body_weldid[body_of] > 0),
+            number=body_of.copy(),
+            mass=mass,
+            inertia=model.body_inertia[body_of] / np.maximum(mass, 1e-12)[:, None],
+            centre=model.body_ipos[body_of].copy(),
+            axes=model.body_iquat[body_of].copy(),
+        )
+
+    def energy(self, thing: int, poses: FloatArray, gravity: FloatArray, dt: float) -> FloatArray:
+        """Return a thing's kinetic and potential energy over its mass [J/kg] from one pose to the next, shape (T - 1,).
+
+        Args:
+            thing: Its index; it is free.
+            poses: Its poses, shape (T, 7).
+            gravity: [m/s^2], shape (3,).
+            dt: From one to the next [s].
+        """
+        middle = poses[:, :3] + rotated(poses[:, 3:], self.centre[thing])
+        speed = np.diff(middle, axis=0) / dt
+        change = product(poses[1:, 3:], poses[:-1, 3:] * BACK)
+        spin = 2.0 * change[:, 1:] * np.sign(change[:, :1] + 1e-300) / dt
+        own = rotated(self.axes[thing] * BACK, rotated(poses[:-1, 3:] * BACK, spin))
+        turning = 0.5 * np.square(own) @ self.inertia[thing]
+        return 0.5 * np.square(speed).sum(axis=1) + turning - (middle[1:] + middle[:-1]) @ gravity / 2
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)

@@ -1,4 +1,4 @@
-"""The recorder: copies of poses and contacts while the run goes on, turned into log columns at its end.
+"""The recorder: copies of poses, contacts and particles while the run goes on, turned into log columns at its end.
 
 It reads the simulation and changes nothing in it.
 """
@@ -8,16 +8,19 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
+import numpy.typing as npt
 
-from prolepsis.engine.bodies import Bodies
 from prolepsis.engine.gaining import Surroundings
-from prolepsis.engine.matter import Matter, Stretch
 from prolepsis.engine.sinking import LEAST_LIMIT, Overlaps
 from prolepsis.engine.state import State
+from prolepsis.engine.stretches import Bodies, Matter, Stretch
 from prolepsis.engine.touching import empty_contacts
 from prolepsis.engine.turning import product, rotated
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.geometry.solids import matrix
 from prolepsis.log.log import Contacts, Joints, Particles
+from prolepsis.log.particle_tables import rounded
+from prolepsis.scene.particles import PERIOD, ParticleState
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -235,3 +238,50 @@ class Recorder:
             point=summed(point[keep], weight) / total[:, None],
             peak=peak,
         )
+
+
+@dataclass(kw_only=True)
+class Frames:
+    """Copies of the particles, in the order of time."""
+
+    ticks: list[int] = field(default_factory=list[int])
+    positions: list[npt.NDArray[np.float32]] = field(default_factory=list["npt.NDArray[np.float32]"])
+    columns: list[dict[str, npt.NDArray[np.float32]]] = field(
+        default_factory=list["dict[str, npt.NDArray[np.float32]]"]
+    )
+    holders: list[npt.NDArray[np.int16]] = field(default_factory=list["npt.NDArray[np.int16]"])
+
+    def tick(self, state: State, tick: int) -> None:
+        """Copy the particles, if it is time."""
+        if state.particles is None or tick % PERIOD:
+            return
+        self.ticks.append(tick)
+        self.positions.append(rounded(_places(state, state.particles)))
+        self.holders.append(state.particles.holder.copy())
+        self.columns.append({name: column.astype(np.float32) for name, column in state.particles.columns.items()})
+
+    def table(self, state: State) -> Particles:
+        """Return the frames as columns of the log."""
+        particles = state.particles
+        if particles is None or not self.ticks:
+            return Particles()
+        return Particles(
+            tick=np.array(self.ticks),
+            position=np.stack(self.positions),
+            holder=np.stack(self.holders),
+            stuff=particles.stuff.copy(),
+            mass=particles.mass.copy(),
+            volume=particles.volume.copy(),
+            columns={name: np.stack([row[name] for row in self.columns]) for name in self.columns[0]},
+            spacing=particles.spacing,
+        )
+
+
+def _places(state: State, particles: ParticleState) -> FloatArray:
+    """Return where all particles are by now [m], shape (P, 3): those that are held are where what holds them is."""
+    places = particles.now()
+    holders: list[int] = np.unique(particles.holder[particles.holder >= 0]).tolist()
+    for holder in holders:
+        pose, held = state.pose(state.scene.things[holder].name), particles.holder == holder
+        places[held] = pose[:3] + particles.home[held] @ matrix(pose[3:]).T
+    return places
