@@ -17,7 +17,7 @@ SPACING = 0.004
 FLOOR, SPONGE, LIQUID = 0, 1, 2
 
 
-def log_of(places: FloatArray, holder: int, kind: str = "Water", *, last: FloatArray | None = None) -> Log:
+def log_of(positions: FloatArray, holder: int, kind: str = "Water", *, last: FloatArray | None = None) -> Log:
     """Return the log, two ticks long, of particles above a floor, and a sponge far from them."""
     things = (
         Thing(name="floor", kind="Floor", shape=Shape(geoms=(Geom(type="plane"),), colour=(1, 1, 1, 1)), mount=FIXED),
@@ -31,7 +31,7 @@ def log_of(places: FloatArray, holder: int, kind: str = "Water", *, last: FloatA
     poses[:, SPONGE, :3] = (0.15, 0.0, 0.01)
     none = np.zeros(0, dtype=np.int64)
     empty = np.zeros((0, 3))
-    count = len(places)
+    count = len(positions)
     return Log(
         dt=0.001,
         things=things,
@@ -41,7 +41,7 @@ def log_of(places: FloatArray, holder: int, kind: str = "Water", *, last: FloatA
         contacts=Contacts(tick=none, a=none, b=none, force=empty, normal=empty, point=empty, peak=np.zeros(0)),
         particles=Particles(
             tick=np.array([0, 20]),
-            position=np.stack([places, places if last is None else last]).astype(np.float32),
+            position=np.stack([positions, positions if last is None else last]).astype(np.float32),
             holder=np.full((2, count), holder, dtype=np.int16),
             stuff=np.full(count, LIQUID),
             mass=np.full(count, 0.03 / count),
@@ -75,11 +75,11 @@ def test_a_liquid_is_painted_in_its_colour(kind: str, strongest: int, weakest: i
 
 
 def test_what_is_held_within_a_sponge_is_not_seen_but_darkens_it() -> None:
-    places = cube((0.0, 0.0, 0.05))
-    log = log_of(places, SPONGE)
+    positions = cube((0.0, 0.0, 0.05))
+    log = log_of(positions, SPONGE)
     assert Droplets(log).at(0) is None
     assert Droplets(log).held_share(0)[SPONGE] == pytest.approx(0.75)
-    held, parked = picture_of(log), picture_of(log_of(places, PARKED))
+    held, parked = picture_of(log), picture_of(log_of(positions, PARKED))
     darker = parked.astype(int).sum(axis=2) - held.astype(int).sum(axis=2)
     assert (darker > 60).sum() > 50
     assert darker.min() > -30
@@ -89,7 +89,7 @@ def test_between_two_frames_particles_are_on_the_straight_line() -> None:
     first, last = cube((0.0, 0.0, 0.05)), cube((0.0, 0.0, 0.09))
     wet = Droplets(log_of(first, FREE, last=last)).at(5)
     assert wet is not None
-    assert wet.places == pytest.approx(0.75 * first + 0.25 * last, abs=1e-6)
+    assert wet.positions == pytest.approx(0.75 * first + 0.25 * last, abs=1e-6)
 
 
 def test_one_splash_far_away_does_not_draw_the_camera() -> None:

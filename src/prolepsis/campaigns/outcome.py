@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from prolepsis.geometry.shape import FloatArray
+from prolepsis.geometry.rigid import rotate_back
 from prolepsis.log.fact_types import arguments_of
 from prolepsis.log.log import Log
 from prolepsis.log.timeline import Fact, Timeline
@@ -33,7 +33,7 @@ class Grasp:
     outcome: GraspOutcome
     """``crush``: it broke in the hand; ``hold``: still attached when the holding ended; else ``slip``."""
     slip: float
-    """Greatest way of the object in the hand's frame from the end of the grasp to the end of the holding [m]."""
+    """Greatest displacement of the object in the hand's frame, from the end of the grasp to that of the holding [m]."""
     peak_force: float
     """Greatest force of a pad [N]."""
     bonds_broken: int
@@ -115,12 +115,5 @@ def _slip(log: Log, hand: str, thing: str, start: float, end: float) -> float:
     if not len(ticks):
         return 0.0
     relative = log.poses[ticks, own, :3] - log.poses[ticks, frame, :3]
-    local = _turned_back(log.poses[ticks, frame, 3:], relative)
+    local = rotate_back(log.poses[ticks, frame, 3:], relative)
     return float(np.linalg.norm(local - local[0], axis=1).max())
-
-
-def _turned_back(turns: FloatArray, vectors: FloatArray) -> FloatArray:
-    """Return world ``vectors`` (T, 3) in frames with the quaternions ``turns`` (T, 4; w, x, y, z)."""
-    scalar, axis = turns[:, :1], -turns[:, 1:]
-    twice = 2.0 * np.cross(axis, vectors)
-    return vectors + scalar * twice + np.cross(axis, twice)

@@ -42,7 +42,7 @@ class Grip:
     """Half the sum of the normal forces, which for two pads is the force of one [N], shape (T,)."""
     slip_speed: FloatArray
     """Speed of b's middle relative to what presses most [m/s], shape (T,)."""
-    place: FloatArray
+    position: FloatArray
     """b's middle in the frame of what presses most [m], shape (T, 3)."""
     stretches: IntArray
     """When it holds."""
@@ -54,7 +54,7 @@ def attached(observation: Observation) -> Iterator[Fact]:
     names = observation.unit_names
     for grip in observation.of(grips):
         for start, end in grip.stretches:
-            slip = np.linalg.norm(grip.place[end - 1] - grip.place[start])
+            slip = np.linalg.norm(grip.position[end - 1] - grip.position[start])
             evidence: dict[str, float | str] = {
                 "by": "grip",
                 "pad_force": float(grip.force[start:end].mean()),
@@ -141,25 +141,25 @@ def _grip(observation: Observation, held: int, several: list[Touch]) -> list[Gri
         return []
     body = int(np.argmax(np.bincount(other, press)))
     pose = observation.log.poses[:, body]
-    place = rotate_back(pose[:, 3:], observation.of(centres)[held] - pose[:, :3])
-    speed = _slip_speed(place, observation.dt)
+    position = rotate_back(pose[:, 3:], observation.of(centres)[held] - pose[:, :3])
+    speed = _slip_speed(position, observation.dt)
     holders = tuple(sorted({touch.a if touch.b == held else touch.b for touch in several}))
     firm = mask_of(debounce(gripping, observation.dt, gap=FLICKER), count) & (speed < TOGETHER_SPEED)
     firm &= ~_carried_by_others(observation, held, holders)
     stretches = debounce(firm, observation.dt, gap=HOLD_GAP, least=HOLD_LEAST)
     if not len(stretches):
         return []
-    grip = Grip(holders=holders, held=held, force=total / 2, slip_speed=speed, place=place, stretches=stretches)
+    grip = Grip(holders=holders, held=held, force=total / 2, slip_speed=speed, position=position, stretches=stretches)
     return [grip]
 
 
-def _slip_speed(place: FloatArray, dt: float) -> FloatArray:
-    count, half = len(place), ticks_of(TOGETHER_WINDOW / 2, dt)
+def _slip_speed(position: FloatArray, dt: float) -> FloatArray:
+    count, half = len(position), ticks_of(TOGETHER_WINDOW / 2, dt)
     now = np.arange(count)
     first, last = np.maximum(now - half, 0), np.minimum(now + half, count - 1)
     # While the grip closes or opens one side of the window is outside it, so the steadier side counts.
-    past = np.linalg.norm(place - place[first], axis=1) / (np.maximum(now - first, 1) * dt)
-    future = np.linalg.norm(place[last] - place, axis=1) / (np.maximum(last - now, 1) * dt)
+    past = np.linalg.norm(position - position[first], axis=1) / (np.maximum(now - first, 1) * dt)
+    future = np.linalg.norm(position[last] - position, axis=1) / (np.maximum(last - now, 1) * dt)
     past[first == now], future[last == now] = np.inf, np.inf
     return np.minimum(past, future)
 

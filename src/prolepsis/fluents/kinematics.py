@@ -8,7 +8,7 @@ import numpy as np
 
 from prolepsis.fluents.intervals import ticks_of
 from prolepsis.fluents.observation import Observation
-from prolepsis.geometry.rigid import rotate, turn
+from prolepsis.geometry.rigid import angle_between, rotate
 from prolepsis.geometry.shape import BoolArray, FloatArray
 from prolepsis.geometry.solids import centroid, radius
 
@@ -33,10 +33,10 @@ def centres(observation: Observation) -> FloatArray:
 
 def velocities(observation: Observation) -> FloatArray:
     """Return the velocity of each thing's middle during each tick [m/s], shape (n, T, 3)."""
-    place = observation.of(centres)
-    found = np.zeros_like(place)
+    position = observation.of(centres)
+    found = np.zeros_like(position)
     if observation.tick_count > 1:
-        np.subtract(place[:, 1:], place[:, :-1], out=found[:, :-1])
+        np.subtract(position[:, 1:], position[:, :-1], out=found[:, :-1])
         found /= observation.dt
         found[:, -1] = found[:, -2]
         carrier = observation.log.carrier
@@ -65,7 +65,7 @@ def radii(observation: Observation) -> FloatArray:
 def travel(observation: Observation, ticks_before: int, ticks_after: int) -> FloatArray:
     """Return how far each thing's surface gets from ``ticks_before`` before to ``ticks_after`` after each tick.
 
-    Turning counts as the way of the outermost point.
+    Turning counts as the path of the outermost point.
 
     Returns:
         Mean speed over that time [m/s], shape (n, T).
@@ -84,10 +84,10 @@ def travel(observation: Observation, ticks_before: int, ticks_after: int) -> Flo
 
 
 def _speeds(observation: Observation, first: Any, last: Any) -> FloatArray:
-    place, orientation = observation.of(centres), observation.of(orientations)
-    way = place[:, last] - place[:, first]
-    shift = np.sqrt(np.einsum("ntc,ntc->nt", way, way))
-    spin = turn(orientation[:, first], orientation[:, last]) * observation.of(radii)[:, None]
+    position, orientation = observation.of(centres), observation.of(orientations)
+    displacement = position[:, last] - position[:, first]
+    shift = np.sqrt(np.einsum("ntc,ntc->nt", displacement, displacement))
+    spin = angle_between(orientation[:, first], orientation[:, last]) * observation.of(radii)[:, None]
     np.maximum(shift, spin, out=shift)
     ticks = np.arange(observation.tick_count)
     return shift / ((ticks[last] - ticks[first]) * observation.dt)

@@ -44,25 +44,25 @@ def falling_liquid(observation: Observation) -> Iterator[Fact]:
 
 def particle_speeds(observation: Observation) -> FloatArray:
     """Return how fast each particle gets on over ``FLOWING_WINDOW`` round each frame [m/s], shape (F, P)."""
-    way, time = _ways(observation)
-    return np.sqrt(np.einsum("fpc,fpc->fp", way, way)) / time[:, None]
+    displacement, time = _displacements(observation)
+    return np.sqrt(np.einsum("fpc,fpc->fp", displacement, displacement)) / time[:, None]
 
 
 def particle_climbs(observation: Observation) -> FloatArray:
     """Return how fast each particle rises over ``FLOWING_WINDOW`` round each frame [m/s], shape (F, P)."""
-    way, time = _ways(observation)
-    return (way @ observation.up) / time[:, None]
+    displacement, time = _displacements(observation)
+    return (displacement @ observation.up) / time[:, None]
 
 
-def _ways(observation: Observation) -> tuple[FloatArray, FloatArray]:
+def _displacements(observation: Observation) -> tuple[FloatArray, FloatArray]:
     particles = observation.log.particles
     tick, position = particles.tick, particles.position
     half = ticks_of(FLOWING_WINDOW / 2, observation.dt)
     first = np.maximum(np.searchsorted(tick, tick - half, side="right") - 1, 0)
     last = np.minimum(np.searchsorted(tick, tick + half), len(tick) - 1)
     time = np.maximum((tick[last] - tick[first]) * observation.dt, 1e-9)
-    way = (position[last] - position[first]).astype(np.float64)
-    return way, time
+    displacement = (position[last] - position[first]).astype(np.float64)
+    return displacement, time
 
 
 def _mostly(observation: Observation, seen: Places, type: str, mask: BoolArray) -> Iterator[Fact]:

@@ -23,23 +23,23 @@ STILL_SPEED = 0.002
 """Speed within one tick below which a body has not begun to move or has stopped [m/s]; it makes ends sharp."""
 PAUSE = 0.1
 """Rest that does not end a motion [s], such as the turning point of a swing."""
-MOVING_WAY = 0.002
-"""Shortest way of a motion, of the outermost point [m]: a thing put down sinks in by up to a millimetre."""
+LEAST_PATH = 0.002
+"""Shortest path of a motion, of the outermost point [m]: a thing put down sinks in by up to a millimetre."""
 
 
 @event("moving", "o")
 def moving(observation: Observation) -> Iterator[Fact]:
     """The thing gets somewhere or turns, faster than 1 cm/s; jitter in place is no motion."""
-    place = observation.of(centres)
+    position = observation.of(centres)
     speed = observation.of(surface_speeds)
     for unit, stretches in observation.of(moving_runs).items():
         if is_stuff(observation, unit):
             continue
         parts = _moving_parts(observation, unit)
         for start, end in stretches:
-            way = np.diff(place[parts, start : min(end + 1, observation.tick_count)], axis=1)
+            path = np.diff(position[parts, start : min(end + 1, observation.tick_count)], axis=1)
             evidence = {
-                "distance": float(np.sqrt(np.square(way).sum(axis=2)).sum(axis=1).max()),
+                "distance": float(np.sqrt(np.square(path).sum(axis=2)).sum(axis=1).max()),
                 "speed": float(speed[parts, start:end].max()),
             }
             yield observation.fact("event", "moving", (observation.unit_names[unit],), (start, end), evidence)
@@ -55,8 +55,8 @@ def moving_runs(observation: Observation) -> dict[int, IntArray]:
         if not masks[parts].any():
             continue
         stretches = close_gaps(runs(masks[parts].any(axis=0) & observation.exists(unit)), gap)
-        way = np.concatenate(([0.0], np.cumsum(speed[parts].max(axis=0)) * observation.dt))
-        stretches = stretches[way[stretches[:, 1]] - way[stretches[:, 0]] >= MOVING_WAY]
+        path = np.concatenate(([0.0], np.cumsum(speed[parts].max(axis=0)) * observation.dt))
+        stretches = stretches[path[stretches[:, 1]] - path[stretches[:, 0]] >= LEAST_PATH]
         if len(stretches):
             found[unit] = stretches
     return found

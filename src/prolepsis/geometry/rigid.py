@@ -47,7 +47,7 @@ def multiply(first: FloatArray, second: FloatArray) -> FloatArray:
     )
 
 
-def turn(before: FloatArray, after: FloatArray) -> FloatArray:
+def angle_between(before: FloatArray, after: FloatArray) -> FloatArray:
     """Return the angle between unit quaternions [rad], shape (...): exact when small, a tenth less at 180 degrees."""
     # The chord between two unit quaternions is 2 sin(angle / 4); q and -q are the same rotation.
     product = np.abs(np.einsum("...q,...q->...", before, after))

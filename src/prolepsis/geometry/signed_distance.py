@@ -77,10 +77,10 @@ def solids_as_arrays(shape: Shape) -> Solids:
 def _sides(outline: FloatArray) -> FloatArray:
     """Return begin, end, direction and length of each side of a closed outline [m], shape (S, 7)."""
     end = np.roll(outline, -1, axis=0)
-    way = end - outline
-    length = np.linalg.norm(way, axis=1, keepdims=True)
+    edge = end - outline
+    length = np.linalg.norm(edge, axis=1, keepdims=True)
     kept = length[:, 0] > 0.0
-    return np.column_stack([outline, end, way / np.maximum(length, 1e-300), length])[kept]
+    return np.column_stack([outline, end, edge / np.maximum(length, 1e-300), length])[kept]
 
 
 _AT_HOME = np.array([0.0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1])
@@ -138,10 +138,10 @@ def _distances(solids: Solids, points: FloatArray) -> FloatArray:
 
 def shifted(solids: Solids, pose: FloatArray) -> Solids:
     """Return solids as seen in a frame in which theirs has the given pose, shape (7,)."""
-    turn = matrix(pose[3:])
+    rotation = matrix(pose[3:])
     frame = solids.frame.copy()
-    frame[:, :3] = solids.frame[:, :3] @ turn.T + pose[:3]
-    frame[:, 3:] = (turn @ solids.frame[:, 3:].reshape(-1, 3, 3)).reshape(-1, 9)
+    frame[:, :3] = solids.frame[:, :3] @ rotation.T + pose[:3]
+    frame[:, 3:] = (rotation @ solids.frame[:, 3:].reshape(-1, 3, 3)).reshape(-1, 9)
     return solids._replace(frame=frame)
 
 

@@ -17,7 +17,7 @@ FAR = 0.6
 class Wet(NamedTuple):
     """What is to be painted."""
 
-    places: FloatArray
+    positions: FloatArray
     """Centres of the free particles in the world [m], shape (n, 3)."""
     kinds: IntArray
     """Index of each particle's look, shape (n,)."""
@@ -42,12 +42,12 @@ class Droplets:
         """Return the free particles at ``tick``, between two frames on the straight line, or None if there are none."""
         if not self.present:
             return None
-        places, free = self._places(tick)
+        positions, free = self._positions(tick)
         if not free.any():
             return None
-        return Wet(places[free], self._kinds[free], self._looks, self._particles.spacing)
+        return Wet(positions[free], self._kinds[free], self._looks, self._particles.spacing)
 
-    def _places(self, tick: int) -> tuple[FloatArray, BoolArray]:
+    def _positions(self, tick: int) -> tuple[FloatArray, BoolArray]:
         frames, particles = self._particles.tick, self._particles
         before = max(int(np.searchsorted(frames, tick, side="right")) - 1, 0)
         after = min(before + 1, len(frames) - 1)
@@ -56,8 +56,8 @@ class Droplets:
         first, second = (particles.position[k].astype(np.float64) for k in (before, after))
         # Who is taken up or released between two frames is shown as in the first.
         stays = (particles.holder[before] == FREE) & (particles.holder[after] == FREE)
-        places = first + (share * stays)[:, None] * (second - first)
-        return places, particles.holder[before] == FREE
+        positions = first + (share * stays)[:, None] * (second - first)
+        return positions, particles.holder[before] == FREE
 
     def held_share(self, tick: int) -> FloatArray:
         """Return the liquid's share of the mass of each thing that holds some within it, shape (n,) [1]."""
@@ -79,8 +79,8 @@ class Droplets:
             return []
         shown: list[FloatArray] = []
         for tick in ticks:
-            places, free = self._places(tick)
+            positions, free = self._positions(tick)
             if free.any():
-                near = np.linalg.norm(places[free] - np.median(places[free], axis=0), axis=1) < FAR
-                shown.append(places[free][near])
+                near = np.linalg.norm(positions[free] - np.median(positions[free], axis=0), axis=1) < FAR
+                shown.append(positions[free][near])
         return shown

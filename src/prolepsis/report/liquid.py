@@ -61,10 +61,10 @@ class Eye:
     focal: float
     """Focal length [pixel]."""
 
-    def seen(self, places: FloatArray) -> FloatArray:
-        """Return places of the world (n, 3) as seen from the eye: to the right, downward and ahead [m]."""
+    def seen(self, positions: FloatArray) -> FloatArray:
+        """Return positions in the world (n, 3) as seen from the eye: to the right, downward and ahead [m]."""
         axes = np.stack([np.cross(self.forward, self.up), -self.up, self.forward], axis=1)
-        return np.ascontiguousarray((places - self.position) @ axes)
+        return np.ascontiguousarray((positions - self.position) @ axes)
 
 
 def look_of(thing: Thing) -> Look:
@@ -76,7 +76,7 @@ def painted(
     picture: Picture,
     behind: FloatArray,
     eye: Eye,
-    places: FloatArray,
+    positions: FloatArray,
     kinds: IntArray,
     looks: list[Look],
     spacing: float,
@@ -87,12 +87,12 @@ def painted(
         picture: Without liquids, shape (height, width, 3).
         behind: Distance of what is seen in each pixel, along the line of sight's forward axis [m].
         eye: From where.
-        places: Centres of the particles in the world [m], shape (n, 3).
+        positions: Centres of the particles in the world [m], shape (n, 3).
         kinds: Index of each particle's look, shape (n,).
         looks: The looks.
         spacing: Distance of neighbours in the liquid [m].
     """
-    seen = eye.seen(places)
+    seen = eye.seen(positions)
     radius = BALL * spacing
     nearest, thickness = splat(seen, kinds, radius, eye.focal, behind, len(looks))
     covered = nearest < NOTHING

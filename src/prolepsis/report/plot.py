@@ -64,22 +64,22 @@ def plot_lines(
     font = ImageFont.load_default(size=11 * SCALE)
     across, up = _ticks([line.x for line in lines]), _ticks([line.y for line in lines])
 
-    def place(x: FloatArray, y: FloatArray) -> list[tuple[float, float]]:
+    def pixels(x: FloatArray, y: FloatArray) -> list[tuple[float, float]]:
         columns = left + (x - across[0]) / (across[-1] - across[0]) * (right - left)
         rows = bottom - (y - up[0]) / (up[-1] - up[0]) * (bottom - top)
         return [(float(c), float(r)) for c, r in zip(columns, rows, strict=True)]
 
     for value, text in zip(across, _texts(across), strict=True):
-        ((column, _),) = place(np.array([value]), np.array([up[0]]))
+        ((column, _),) = pixels(np.array([value]), np.array([up[0]]))
         draw.line([(column, top), (column, bottom)], fill=GRID, width=SCALE)
         draw.text((column, bottom + 4 * SCALE), text, font=font, fill=INK, anchor="ma")
     for value, text in zip(up, _texts(up), strict=True):
-        ((_, row),) = place(np.array([across[0]]), np.array([value]))
+        ((_, row),) = pixels(np.array([across[0]]), np.array([value]))
         draw.line([(left, row), (right, row)], fill=GRID, width=SCALE)
         draw.text((left - 6 * SCALE, row), text, font=font, fill=INK, anchor="rm")
     draw.rectangle((left, top, right, bottom), outline=INK, width=SCALE)
     for line, colour in zip(lines, _colours(len(lines)), strict=True):
-        points = place(*_thinned(line, right - left))
+        points = pixels(*_thinned(line, right - left))
         draw.line(points if len(points) > 1 else [*points, *points], fill=colour, width=3 * SCALE // 2)
     draw.text(((left + right) / 2, height - 6 * SCALE), x_label, font=font, fill=INK, anchor="md")
     turned = Image.new("RGB", (height, 16 * SCALE), "white")

@@ -14,11 +14,11 @@ NOTHING = 1.0e9
 
 
 @njit(cache=True, fastmath=True)
-def splat(places: Any, kinds: Any, radius: float, focal: float, behind: Any, count: int) -> Any:
+def splat(positions: Any, kinds: Any, radius: float, focal: float, behind: Any, count: int) -> Any:
     """Return how near the liquid is and how thick each kind of it is, pixel by pixel.
 
     Args:
-        places: Centres of the particles seen from the eye, to the right, downward and ahead [m], shape (n, 3).
+        positions: Centres of the particles seen from the eye, to the right, downward and ahead [m], shape (n, 3).
         kinds: Kind of liquid of each particle, 0 to ``count`` - 1, shape (n,).
         radius: Radius of the ball that stands for a particle [m].
         focal: Focal length [pixel].
@@ -31,8 +31,8 @@ def splat(places: Any, kinds: Any, radius: float, focal: float, behind: Any, cou
     height, width = behind.shape
     nearest = np.full((height, width), NOTHING)
     thickness = np.zeros((count, height, width))
-    for p in range(len(places)):
-        right, down, ahead = places[p]
+    for p in range(len(positions)):
+        right, down, ahead = positions[p]
         if ahead <= radius:
             continue
         scale = focal / ahead
