@@ -71,6 +71,16 @@ def test_a_robot_is_a_model_and_a_table(tmp_path: Path) -> None:
     assert palm[-1] - palm[0] == pytest.approx(0.05, abs=2e-3)
 
 
+def test_an_effector_is_told_by_its_keys(tmp_path: Path) -> None:
+    shutil.copy(Path(__file__).parents[1] / "examples" / "own_jaw.xml", tmp_path / "my_jaw.xml")
+    block = ":block1 a :Block ; :on :floor ; :x 0.27 ; :length 0.03 ; :width 0.03 ; :height 0.03 ."
+    (tmp_path / "kitchen.ttl").write_text(f"@prefix : <https://w3id.org/prolepsis#> . :floor a :Floor . {block}")
+    (tmp_path / "scenario.toml").write_text(example("An effector", "toml"), encoding="utf-8")
+    made = project(tmp_path / "scenario.toml")
+    assert [action.outcome for action in made.log.actions] == ["done"] * 3
+    assert made.ask("holds(attached(gripper1, block1), T)")
+
+
 def test_an_action_is_one_generator() -> None:
     defined("An action")
     assert fact_types()["shaking"].arguments == ("hand", "times")

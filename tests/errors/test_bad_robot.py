@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 
@@ -82,6 +83,18 @@ TABLE = [
     ("tool = ", "speed = -1\ntool = ", "robot.grippers.gripper1.speed"),
     ("tool = ", "speed = [1, 2]\ntool = ", "gripper1: speed has 2 values for 6 joints"),
     ("[robot]", '[robot]\ntorso = ["wrist"]', "own_arm.xml: torso: no joint named 'wrist'"),
+    (
+        "tool = ",
+        'kind = "jaws"\ntool = ',
+        "robot.grippers.gripper1.kind: no kind of effector named 'jaws'; did you mean 'jaw'?; known: jaw, parallel",
+    ),
+    ("fingers = ", "fingrs = ", "robot.grippers.gripper1: unknown key 'fingrs'; did you mean 'fingers'?; known: palm"),
+    ("tool = ", 'kind = "jaw"\ntool = ', "robot.grippers.gripper1: unknown key 'fingers'; known: palm, tool, forward"),
+    (
+        "tool = ",
+        'jaw = "left"\ntool = ',
+        "gripper1: its keys do not tell one kind of effector; needed: palm, tool and jaw (jaw) or fingers (parallel)",
+    ),
 ]
 
 
@@ -89,6 +102,42 @@ TABLE = [
 def test_a_bad_robot_table(tmp_path: Path, old: str, new: str, message: str) -> None:
     assert EXAMPLE.count(old) == 1
     assert message in refused(tmp_path, EXAMPLE.replace(old, new))
+
+
+JAW = [
+    ('jaw = "jaw"', 'jaw = "roll"', "own_jaw.xml: gripper gripper1: the jaw roll moves on wrist, not on the palm palm"),
+    ('jaw = "jaw"', "jaw = 3", "own_jaw.toml: robot.grippers.gripper1.jaw: input should be a valid string"),
+    (
+        '"fixed_jaw", "moving_jaw"',
+        '"moving_jaw", "fixed_jaw"',
+        "gripper1: pads: the first stands still on the palm, moving_jaw moves",
+    ),
+    ('"moving_jaw"', '"palm"', "gripper1: pads: the second moves with the jaw jaw, palm does not"),
+    ('"moving_jaw"', '"movin_jaw"', "pads: no body or geom named 'movin_jaw'; did you mean 'moving_jaw'?"),
+    ("[0.0975, 0.0115, 0]", "[0.0975, -0.005, 0]", "tool must lie between the pads, [0.0975, -0.005, 0.0] is inside"),
+    ("tool = ", "forward = [0, 1, 0]\ntool = ", "gripper1: forward must point from the palm to the fingertips"),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "message"), JAW, ids=[new for _, new, _ in JAW])
+def test_a_bad_jaw(tmp_path: Path, old: str, new: str, message: str) -> None:
+    for name in ("own_jaw.ttl", "own_jaw.xml"):
+        shutil.copy(ROOT / "examples" / name, tmp_path)
+    text = (ROOT / "examples" / "own_jaw.toml").read_text(encoding="utf-8")
+    assert text.count(old) == 1
+    (tmp_path / "own_jaw.toml").write_text(text.replace(old, new), encoding="utf-8")
+    with pytest.raises(InputError, match=re.escape(message)):
+        project(tmp_path / "own_jaw.toml")
+
+
+def test_a_jaw_that_slides(tmp_path: Path) -> None:
+    shutil.copy(ROOT / "examples" / "own_jaw.ttl", tmp_path)
+    shutil.copy(ROOT / "examples" / "own_jaw.toml", tmp_path)
+    model = (ROOT / "examples" / "own_jaw.xml").read_text(encoding="utf-8")
+    assert model.count('<joint name="jaw"') == 1
+    (tmp_path / "own_jaw.xml").write_text(model.replace('<joint name="jaw"', '<joint type="slide" name="jaw"'), "utf-8")
+    with pytest.raises(InputError, match="the jaw jaw slides; allowed: a joint that turns"):
+        project(tmp_path / "own_jaw.toml")
 
 
 SECOND = EXAMPLE + EXAMPLE[EXAMPLE.index("[robot.grippers") :].replace("gripper1", "gripper2")

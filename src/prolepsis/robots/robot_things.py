@@ -72,6 +72,7 @@ def robot_things(
         found = gripper_thing(arm.name)
         limits = {
             "opening": openings[arm.name],
+            "minOpening": read.gaps[arm.name].least,
             "maxOpening": read.gaps[arm.name].greatest,
             "maxForce": arm.gripper.max_force,
             "maxPush": arm.max_push,

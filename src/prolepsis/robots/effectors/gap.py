@@ -21,16 +21,16 @@ class Gap:
     """Rise of the gap over the rise of the length at each length [1 or m/rad]: motor force over pad force."""
     ahead: tuple[float, ...]
     """How far along the effector's x axis what it holds has its middle at each length [m]."""
-    aside: tuple[float, ...]
+    across: tuple[float, ...]
     """And along its y axis [m]."""
 
     @classmethod
     def sliding(cls, first: float, width: float) -> Gap:
         """Return the gap of two pads that slide: ``first`` [m] where the joints are at 0, up to ``width`` [m]."""
-        return cls(first=-first, step=width, gaps=(0.0, width), levers=(1.0, 1.0), ahead=(0.0, 0.0), aside=(0.0, 0.0))
+        return cls(first=-first, step=width, gaps=(0.0, width), levers=(1.0, 1.0), ahead=(0.0, 0.0), across=(0.0, 0.0))
 
     @classmethod
-    def tabulated(cls, lengths: FloatArray, gaps: FloatArray, ahead: FloatArray, aside: FloatArray) -> Gap:
+    def tabulated(cls, lengths: FloatArray, gaps: FloatArray, ahead: FloatArray, across: FloatArray) -> Gap:
         """Return the gap, and where things are held, measured at evenly spaced tendon lengths, each shape (n,)."""
         step = float(lengths[1] - lengths[0])
         inner = (gaps[2:] - gaps[:-2]) / (2 * step)
@@ -42,7 +42,7 @@ class Gap:
             gaps=tuple(gaps.tolist()),
             levers=tuple(map(float, levers)),
             ahead=tuple(ahead.tolist()),
-            aside=tuple(aside.tolist()),
+            across=tuple(across.tolist()),
         )
 
     def opening(self, length: float) -> float:
@@ -56,7 +56,7 @@ class Gap:
     def held_at(self, gap: float) -> tuple[float, float]:
         """Return where what is held has its middle at a gap [m], along x and y of the effector's frame [m]."""
         length = self.length(gap)
-        return self._at(self.ahead, length), self._at(self.aside, length)
+        return self._at(self.ahead, length), self._at(self.across, length)
 
     @property
     def least(self) -> float:

@@ -64,6 +64,8 @@ class GripperControl:
         """Commanded pad force [N]."""
         self.pad_force = 0.0
         """The smaller of the two pads' normal forces [N]."""
+        self.share = 1.0
+        """Motor force over that for which the drive's lever asks [1]."""
         self._drive = drive
         self._goal: CloseGripper | OpenGripper | None = None
         self._elapsed = 0.0
@@ -149,7 +151,7 @@ class GripperControl:
         self._motor_force = now
         # The motor pulls at the tendon, by whose lever its force becomes a pad's; all moving pads make the gap's speed.
         self._set_gains(0.0, -now * lever * lever / (self._drive.moving * limit))
-        self._data.ctrl[self._motor] = -now * lever
+        self._data.ctrl[self._motor] = -now * lever * self.share
 
     def _move(self, goal: OpenGripper | None, dt: float) -> None:
         if goal is None:
