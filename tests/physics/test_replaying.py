@@ -17,13 +17,13 @@ from tests.scenes import scene
 
 from prolepsis.engine.simulation import simulate
 from prolepsis.engine.world import compile_world
+from prolepsis.geometry.rotations import product
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.log.log import Log
 from prolepsis.programs import read_program
 from prolepsis.programs.recording import read_recording
 from prolepsis.projection import project
 from prolepsis.robots.pr2 import PR2
-from prolepsis.robots.turned import product
 from prolepsis.scene.scene import Scene
 from prolepsis.terms.errors import InputError
 from prolepsis.terms.terms import parse_term

@@ -11,9 +11,9 @@ from scipy import spatial  # pyright: ignore[reportMissingTypeStubs]
 from tests.scenes import PREFIX, scene
 
 from prolepsis.engine.composing import compose_scene
+from prolepsis.geometry.rotations import matrix
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.geometry.signed_distance import field_of
-from prolepsis.geometry.solids import matrix
 from prolepsis.knowledge import KnowledgeBase
 from prolepsis.log.things import Thing
 from prolepsis.matter.liquids.basin import basin_of

@@ -14,7 +14,7 @@ from functools import partial
 import numpy as np
 
 from prolepsis.engine.stretches import Matter, Stretch
-from prolepsis.engine.turning import matrices
+from prolepsis.geometry.rotations import matrices
 from prolepsis.geometry.shape import BoolArray, FloatArray, Geom, IntArray
 from prolepsis.geometry.solids import Solid, solid_of
 from prolepsis.log.things import Thing

@@ -15,9 +15,9 @@ from prolepsis.engine.sinking import LEAST_LIMIT, Overlaps
 from prolepsis.engine.state import State
 from prolepsis.engine.stretches import Bodies, Matter, Stretch
 from prolepsis.engine.touching import empty_contacts
-from prolepsis.engine.turning import product, rotated
+from prolepsis.geometry.rigid import multiply, rotate
+from prolepsis.geometry.rotations import matrix
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
-from prolepsis.geometry.solids import matrix
 from prolepsis.log.log import Contacts, Joints, Particles
 from prolepsis.log.particle_tables import rounded
 from prolepsis.scene.particles import PERIOD, ParticleState
@@ -162,7 +162,7 @@ class Recorder:
             body = version.body_of[version.carrier]
             outer_p, outer_q = position[:, body], turn[:, body]
             inner_p, inner_q = version.offsets[:, :3], version.offsets[:, 3:]
-            block = np.concatenate([outer_p + rotated(outer_q, inner_p), product(outer_q, inner_q)], axis=2)
+            block = np.concatenate([outer_p + rotate(outer_q, inner_p), multiply(outer_q, inner_q)], axis=2)
             # What is no body of its own keeps the pose at which it was last seen.
             block[:, ~carried] = last[~carried]
             poses[ticks] = block

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from prolepsis.engine.world import DEBRIS_IMPEDANCE_RATIO, World, add_geom
-from prolepsis.geometry.shape import FloatArray, IntArray, Quaternion, Triple
+from prolepsis.geometry.rotations import compose_pose, inverse, relative_pose, rotated
+from prolepsis.geometry.shape import FloatArray, IntArray, Quaternion, Triple, quaternion, triple
 from prolepsis.log.happenings import Happening
 from prolepsis.log.things import Thing
-from prolepsis.robots.turned import compose_pose, relative_pose
 from prolepsis.scene.particles import ParticleState
 from prolepsis.scene.running import ContactForces, PointJoint
 from prolepsis.scene.scene import Scene
@@ -300,11 +300,7 @@ class State:
             pose = poses[group[0]]
             joint.qpos[:] = pose
             joint.qvel[:3] = velocity[3:] + np.cross(velocity[:3], pose[:3] - origin)
-            local = np.zeros(3)
-            inverse = np.zeros(4)
-            mujoco.mju_negQuat(inverse, pose[3:])
-            mujoco.mju_rotVecQuat(local, velocity[:3], inverse)
-            joint.qvel[3:] = local
+            joint.qvel[3:] = rotated(inverse(quaternion(pose[3:])), triple(velocity[:3]))
         mujoco.mj_forward(self.model, self.data)
 
     def join(self, joints: Sequence[PointJoint]) -> list[int]:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.engine.turning import product, rotated
+from prolepsis.geometry.rigid import multiply, rotate
 from prolepsis.geometry.shape import BoolArray, FloatArray, Geom, IntArray
 from prolepsis.log.things import Thing
 from prolepsis.system.mujoco import mujoco
@@ -64,11 +64,11 @@ class Bodies:
             gravity: [m/s^2], shape (3,).
             dt: From one to the next [s].
         """
-        middle = poses[:, :3] + rotated(poses[:, 3:], self.centre[thing])
+        middle = poses[:, :3] + rotate(poses[:, 3:], self.centre[thing])
         speed = np.diff(middle, axis=0) / dt
-        change = product(poses[1:, 3:], poses[:-1, 3:] * BACK)
+        change = multiply(poses[1:, 3:], poses[:-1, 3:] * BACK)
         spin = 2.0 * change[:, 1:] * np.sign(change[:, :1] + 1e-300) / dt
-        own = rotated(self.axes[thing] * BACK, rotated(poses[:-1, 3:] * BACK, spin))
+        own = rotate(self.axes[thing] * BACK, rotate(poses[:-1, 3:] * BACK, spin))
         turning = 0.5 * np.square(own) @ self.inertia[thing]
         return 0.5 * np.square(speed).sum(axis=1) + turning - (middle[1:] + middle[:-1]) @ gravity / 2
 

@@ -8,11 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from prolepsis.geometry.rotations import inverse, product, rotated
 from prolepsis.geometry.shape import IDENTITY, Quaternion, Triple, triple
 from prolepsis.geometry.solids import matter_of
 from prolepsis.log.things import Thing, friction_of
-from prolepsis.robots.hand import rotate
-from prolepsis.robots.turned import inverse, product
 from prolepsis.scene.running import MAX_STEP
 from prolepsis.scene.scene import Scene
 from prolepsis.system.mujoco import mujoco
@@ -176,7 +175,7 @@ def _seen_from(holder: Thing, thing: Thing) -> tuple[Triple, Quaternion]:
     back = inverse(holder.orientation)
     away = np.asarray(thing.position) - np.asarray(holder.position)
     same = thing.orientation == holder.orientation
-    return triple(rotate(back, triple(away))), IDENTITY if same else product(back, thing.orientation)
+    return triple(rotated(back, triple(away))), IDENTITY if same else product(back, thing.orientation)
 
 
 def _masses(thing: Thing) -> list[float]:

@@ -30,15 +30,19 @@ def inverse(orientation: Quaternion) -> Quaternion:
     return (w, -x, -y, -z)
 
 
-def rotated(orientation: Quaternion, vector: Triple) -> Triple:
-    """Return a vector turned by a rotation."""
+def rotated(orientation: Quaternion, vector: Triple) -> FloatArray:
+    """Return a vector turned by a rotation, shape (3,)."""
+    return np.array(_rotated(orientation, vector))
+
+
+def _rotated(orientation: Quaternion, vector: Triple) -> Triple:
     w, x, y, z = orientation
     a, b, c = vector
     p, q, r = w * a + y * c - z * b, w * b + z * a - x * c, w * c + x * b - y * a
     return (a + 2.0 * (y * r - z * q), b + 2.0 * (z * p - x * r), c + 2.0 * (x * q - y * p))
 
 
-def from_angles(angles: Triple, first: Quaternion = (1.0, 0.0, 0.0, 0.0)) -> Quaternion:
+def turned(first: Quaternion, angles: Triple) -> Quaternion:
     """Return ``first`` turned by yaw about its z axis, then by pitch about y, then by roll about x [rad]."""
     result = first
     for axis, angle in zip((3, 2, 1), angles, strict=True):
@@ -49,7 +53,7 @@ def from_angles(angles: Triple, first: Quaternion = (1.0, 0.0, 0.0, 0.0)) -> Qua
     return result
 
 
-def angles_of(orientation: Quaternion, first: Quaternion = (1.0, 0.0, 0.0, 0.0)) -> Triple:
+def angles_of(first: Quaternion, orientation: Quaternion) -> Triple:
     """Return yaw, pitch and roll [rad] of an orientation from ``first``; roll is 0 where they are not unique."""
     w, x, y, z = product(inverse(first), orientation)
     sine = max(-1.0, min(1.0, 2 * (w * y - x * z)))
@@ -101,59 +105,12 @@ def matrices(quaternions: FloatArray) -> FloatArray:
     return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
 
 
-def rotate(quaternion: FloatArray, vector: FloatArray) -> FloatArray:
-    """Return vectors turned by unit quaternions, with broadcasting.
-
-    Args:
-        quaternion: Shape (..., 4).
-        vector: Shape (..., 3).
-    """
-    w, axis = quaternion[..., :1], quaternion[..., 1:]
-    twice = 2.0 * cross(axis, vector)
-    return vector + w * twice + cross(axis, twice)
-
-
-def rotate_back(quaternion: FloatArray, vector: FloatArray) -> FloatArray:
-    """Return vectors turned by the inverse of unit quaternions."""
-    return rotate(quaternion * np.array([1.0, -1.0, -1.0, -1.0]), vector)
-
-
-def multiply(first: FloatArray, second: FloatArray) -> FloatArray:
-    """Return the product of quaternions, with broadcasting, shape (..., 4)."""
-    w1, x1, y1, z1 = np.moveaxis(first, -1, 0)
-    w2, x2, y2, z2 = np.moveaxis(second, -1, 0)
-    return np.stack(
-        (
-            w1 * w2 - x1 * x2 - y1 * y2 - z1 * z2,
-            w1 * x2 + x1 * w2 + y1 * z2 - z1 * y2,
-            w1 * y2 - x1 * z2 + y1 * w2 + z1 * x2,
-            w1 * z2 + x1 * y2 - y1 * x2 + z1 * w2,
-        ),
-        axis=-1,
-    )
-
-
-def angle_between(before: FloatArray, after: FloatArray) -> FloatArray:
-    """Return the angle between unit quaternions [rad], shape (...): exact when small, a tenth less at 180 degrees."""
-    # The chord between two unit quaternions is 2 sin(angle / 4); q and -q are the same rotation.
-    cosine = np.abs(np.einsum("...q,...q->...", before, after))
-    return 2.0 * np.sqrt(np.maximum(2.0 - 2.0 * cosine, 0.0))
-
-
-def cross(first: FloatArray, second: FloatArray) -> FloatArray:
-    """Return the cross product, shape (..., 3), several times faster than numpy's general one."""
-    found = np.empty(np.broadcast_shapes(first.shape, second.shape))
-    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-        found[..., i] = first[..., j] * second[..., k] - first[..., k] * second[..., j]
-    return found
-
-
 def compose_pose(outer: FloatArray, inner: FloatArray) -> FloatArray:
     """Return the world pose of ``inner``, given in the frame ``outer``; both are (7,)."""
     x, y, z, *turn = outer.tolist()
     a, b, c, *own = inner.tolist()
     orientation = (turn[0], turn[1], turn[2], turn[3])
-    p, q, r = rotated(orientation, (a, b, c))
+    p, q, r = _rotated(orientation, (a, b, c))
     w, i, j, k = product(orientation, (own[0], own[1], own[2], own[3]))
     length = math.sqrt(w * w + i * i + j * j + k * k)
     return np.array([x + p, y + q, z + r, w / length, i / length, j / length, k / length])
@@ -163,5 +120,5 @@ def relative_pose(outer: FloatArray, inner: FloatArray) -> FloatArray:
     """Return the pose of ``inner`` in the frame of ``outer``; both are world poses, (7,)."""
     x, y, z, w, i, j, k = outer.tolist()
     back = (w, -i, -j, -k)
-    p, q, r = rotated(back, (x, y, z))
+    p, q, r = _rotated(back, (x, y, z))
     return compose_pose(np.array([-p, -q, -r, *back]), inner)

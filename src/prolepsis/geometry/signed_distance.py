@@ -23,8 +23,9 @@ from prolepsis.geometry.faces import (
     faces_of,
 )
 from prolepsis.geometry.grid import grid_of
+from prolepsis.geometry.rotations import matrix
 from prolepsis.geometry.shape import FloatArray, IntArray, Shape
-from prolepsis.geometry.solids import Solid, matrix, solid_of
+from prolepsis.geometry.solids import Solid, solid_of
 from prolepsis.system.kernels import njit
 
 PRIMITIVES = {

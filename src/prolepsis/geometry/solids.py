@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from prolepsis.geometry.hull import hull_planes
+from prolepsis.geometry.rotations import matrix
 from prolepsis.geometry.shape import FloatArray, Geom, Shape
 
 SAMPLE_SCALES = (0.125, 0.25)
@@ -172,18 +173,6 @@ def _corners(type: str, size: FloatArray) -> FloatArray:
     if type == "capsule":
         return unit * size[0] + np.column_stack((np.zeros((14, 2)), _DIRECTIONS[:, 2] * size[1]))
     return np.zeros((1, 3))
-
-
-def matrix(quaternion: FloatArray) -> FloatArray:
-    """Return the rotation matrix of a unit quaternion (w, x, y, z), shape (3, 3)."""
-    w, x, y, z = quaternion / np.linalg.norm(quaternion)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
 
 
 @lru_cache(maxsize=4096)

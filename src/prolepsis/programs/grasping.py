@@ -9,11 +9,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from prolepsis.geometry.rotations import rotated, turned
 from prolepsis.geometry.shape import FloatArray, Quaternion, Triple, triple
 from prolepsis.log.things import Thing
 from prolepsis.robots.commands import Arm, Sense
-from prolepsis.robots.hand import rotate
-from prolepsis.robots.turned import turned
 from prolepsis.scene.extent import extent_along, middle
 
 STANDOFF = 0.08
@@ -66,17 +65,17 @@ def as_seen(object: Thing, sense: Sense) -> Thing:
 
 def grasping_width(orientation: Quaternion, object: Thing) -> float:
     """Return an object's extent between the pads of a hand with that orientation [m]."""
-    return extent_along(object, rotate(orientation, (0.0, 1.0, 0.0)))
+    return extent_along(object, rotated(orientation, (0.0, 1.0, 0.0)))
 
 
 def least_width(object: Thing) -> float:
     """Return the least extent of an object along its own axes [m]."""
-    return min(extent_along(object, rotate(object.orientation, _axis(k))) for k in range(3))
+    return min(extent_along(object, rotated(object.orientation, _axis(k))) for k in range(3))
 
 
 def longest_axis(object: Thing) -> FloatArray:
     """Return the unit vector along which an object reaches farthest, one of its own axes in the world, shape (3,)."""
-    axes = [rotate(object.orientation, _axis(k)) for k in range(3)]
+    axes = [rotated(object.orientation, _axis(k)) for k in range(3)]
     return max(axes, key=lambda axis: round(extent_along(object, axis), 6))
 
 
@@ -103,10 +102,10 @@ def grasp_as_turned(hand: Thing, object: Thing, sense: Sense, height: float) -> 
     here = sense.hands[hand.name]
     width = grasping_width(here.orientation, as_seen(object, sense))
     displacement = displacement_to(hand, object, sense, height)
-    forward = rotate(here.orientation, (1.0, 0.0, 0.0))
+    forward = rotated(here.orientation, (1.0, 0.0, 0.0))
     if here.arm is not None:
         ahead, across = here.arm.held_at(width)
-        displacement = displacement - ahead * forward - across * rotate(here.orientation, (0.0, 1.0, 0.0))
+        displacement = displacement - ahead * forward - across * rotated(here.orientation, (0.0, 1.0, 0.0))
     return GraspPose(offset=_sum(here.offset, displacement), rotation=here.turn, width=width, forward=triple(forward))
 
 
@@ -134,10 +133,10 @@ def grasp_poses(
     def grasp_at(rotation: Triple, higher: float) -> GraspPose:
         orientation = turned(reference, rotation)
         width = grasping_width(orientation, seen)
-        forward = rotate(orientation, (1.0, 0.0, 0.0))
+        forward = rotated(orientation, (1.0, 0.0, 0.0))
         level = np.array([forward[0], forward[1], 0.0]) / max(float(np.hypot(forward[0], forward[1])), 1e-9)
         ahead, across = arm.held_at(width)
-        held = ahead * forward + across * rotate(orientation, (0.0, 1.0, 0.0))
+        held = ahead * forward + across * rotated(orientation, (0.0, 1.0, 0.0))
         offset = position + (0.0, 0.0, higher) - short * level - held - first
         return GraspPose(offset=triple(offset), rotation=rotation, width=width, forward=triple(forward))
 

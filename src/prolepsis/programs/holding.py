@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from prolepsis.geometry.rotations import inverse, product, turned
 from prolepsis.geometry.shape import Quaternion, Triple, triple
 from prolepsis.log.things import Thing
 from prolepsis.programs.following import follow, go
@@ -15,7 +16,6 @@ from prolepsis.programs.grasping import as_seen, wrapped, yaw_of
 from prolepsis.programs.profile import PEAK_SPEED, least_jerk
 from prolepsis.programs.turning import matrix
 from prolepsis.robots.commands import ActionFailedError, Behaviour, HandSense, Sense, Way, no_way
-from prolepsis.robots.turned import inverse, product, turned
 from prolepsis.scene.extent import middle, support
 from prolepsis.terms.errors import PlanError
 

@@ -13,8 +13,8 @@ import pyarrow as arrow  # pyright: ignore[reportMissingTypeStubs]
 import pyarrow.csv as csv  # pyright: ignore[reportMissingTypeStubs]
 import pyarrow.parquet as parquet  # pyright: ignore[reportMissingTypeStubs]
 
+from prolepsis.geometry.rotations import turned
 from prolepsis.geometry.shape import FloatArray
-from prolepsis.robots.turned import turned
 from prolepsis.system.text_files import read_bytes
 from prolepsis.terms.errors import PlanError, UnknownNameError
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from prolepsis.geometry.rotations import angles_of, from_axes
 from prolepsis.geometry.shape import FloatArray, Quaternion, Triple, triple
 from prolepsis.log.things import Thing
 from prolepsis.programs.action import ParameterSpec
@@ -15,7 +16,6 @@ from prolepsis.programs.following import go
 from prolepsis.programs.grasping import longest_axis, yaw_of
 from prolepsis.programs.turning import matrix
 from prolepsis.robots.commands import Command, HandSense, Sense, Way, no_way
-from prolepsis.robots.turned import quaternion_of, turn_of
 from prolepsis.scene.extent import middle
 from prolepsis.scene.scene import Scene, robot_of_gripper
 from prolepsis.terms.errors import PlanError
@@ -42,7 +42,7 @@ class HandPose:
     def seen(self, hand: HandSense, reference: Quaternion) -> tuple[Triple, Triple]:
         """Return it as displacement from the hand's first position [m] and as yaw, pitch and roll [rad]."""
         first = np.asarray(hand.position) - np.asarray(hand.offset)
-        return triple(self.position - first), turn_of(reference, quaternion_of(self.rotation))
+        return triple(self.position - first), angles_of(reference, from_axes(self.rotation))
 
     def moved(self, about: FloatArray, axis: FloatArray, angle: float, by: FloatArray) -> HandPose:
         """Return it turned about an axis through a point by ``angle`` [rad], then moved ``by`` [m]."""

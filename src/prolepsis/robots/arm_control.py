@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from prolepsis.geometry.rotations import angles_of, compose_pose, relative_pose, turned
 from prolepsis.geometry.shape import FloatArray, Quaternion, Triple, quaternion, triple
 from prolepsis.log.things import Thing
 from prolepsis.robots.arm_way import ArmWays, name_of
@@ -13,7 +14,6 @@ from prolepsis.robots.commands import ArmTarget, Command, HandSense, HandTarget
 from prolepsis.robots.effectors.kind import KINDS, EffectorControl
 from prolepsis.robots.inverse import ArmKinematics
 from prolepsis.robots.model import robot_model
-from prolepsis.robots.turned import compose_pose, relative_pose, turn_of, turned
 from prolepsis.scene.robot import Robot
 from prolepsis.scene.running import Running
 from prolepsis.system.mujoco import mujoco
@@ -57,7 +57,7 @@ class ArmHand:
         first = self._commanded()
         self._first = triple(first[:3])
         self._offset: Triple = (0.0, 0.0, 0.0)
-        self._turn: Triple = turn_of(reference, quaternion(first[3:]))
+        self._turn: Triple = angles_of(reference, quaternion(first[3:]))
         self._turned = (self._turn, turned(reference, self._turn))
         self.ways = ArmWays(self._kinematics, self._arm, gap, self._first, reference, mount, palm)
         self._stiffness = float(1.0 / np.linalg.eigvalsh(self._compliance())[-1])

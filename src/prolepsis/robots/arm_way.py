@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
+from prolepsis.geometry.rotations import angles_of, compose_pose, inverse, relative_pose, rotated, turned
 from prolepsis.geometry.shape import FloatArray, IntArray, Quaternion, Triple
 from prolepsis.robots.commands import Way
 from prolepsis.robots.effectors.gap import Gap
 from prolepsis.robots.inverse import ArmKinematics, Found
-from prolepsis.robots.turned import compose_pose, conjugated, inverse, relative_pose, turn_of, turned
 from prolepsis.scene.robot import Arm
 from prolepsis.scene.running import Running
 from prolepsis.system.mujoco import mujoco
@@ -70,7 +70,7 @@ class ArmWays:
         assert self._state is not None
         shoulder = compose_pose(self._mount_pose(), self._kinematics.shoulder)
         way = [a - float(b) for a, b in zip(place, shoulder[:3], strict=True)]
-        x, y, _ = conjugated(inverse(self._reference), (way[0], way[1], way[2]))
+        x, y, _ = rotated(inverse(self._reference), (way[0], way[1], way[2]))
         return float(np.arctan2(y, x))
 
     def held_at(self, width: float) -> tuple[float, float]:
@@ -91,7 +91,7 @@ class ArmWays:
         """Return place and turn of the hand with the given coordinates [rad], shape (n,)."""
         pose = [float(v) for v in compose_pose(self._mount_pose(), self._kinematics.pose(joints))]
         x, y, z = self._first
-        return (pose[0] - x, pose[1] - y, pose[2] - z), turn_of(self._reference, (pose[3], pose[4], pose[5], pose[6]))
+        return (pose[0] - x, pose[1] - y, pose[2] - z), angles_of(self._reference, (pose[3], pose[4], pose[5], pose[6]))
 
     def path(self, offsets: FloatArray, turns: FloatArray, *, loose: bool = False) -> Way:
         """Return the joints along places and turns, each shape (k, 3); ``loose`` turns may be off about the vertical

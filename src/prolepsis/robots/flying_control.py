@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 
+from prolepsis.geometry.rotations import turned
 from prolepsis.geometry.shape import Triple
 from prolepsis.log.things import Thing
 from prolepsis.robots.commands import HandSense, HandTarget
 from prolepsis.robots.effectors.gap import Gap
 from prolepsis.robots.effectors.gripper_control import Drive, GripperControl
 from prolepsis.robots.hand import Hand
-from prolepsis.robots.turned import turned
 from prolepsis.scene.running import Running
 from prolepsis.system.mujoco import mujoco
 

@@ -12,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.geometry.shape import FloatArray, Geom, Quaternion, Shape, Triple
+from prolepsis.geometry.rotations import rotated
+from prolepsis.geometry.shape import Geom, Quaternion, Shape, Triple
 from prolepsis.log.things import WITHIN, Thing, jointed
 from prolepsis.robots.effectors.parallel import drive_coupled
 from prolepsis.system.mujoco import mujoco
@@ -116,7 +117,7 @@ class Hand:
             parts.append((side, shape, sign * opening / 2, self.finger_mass))
         made = [whole]
         for part, shape, offset, mass in parts:
-            place = np.asarray(position) + rotate(orientation, (0.0, offset, 0.0))
+            place = np.asarray(position) + rotated(orientation, (0.0, offset, 0.0))
             made.append(
                 Thing(
                     name=f"{name}/{part}",
@@ -137,7 +138,7 @@ class Hand:
         palm = spec.body(f"{name}/palm")
         palm.gravcomp = 1
         for k, axis in enumerate("xyz"):
-            world_axis = rotate((orientation[0], *(-v for v in orientation[1:])), tuple(np.eye(3)[k]))  # type: ignore[arg-type]
+            world_axis = rotated((orientation[0], *(-v for v in orientation[1:])), tuple(np.eye(3)[k]))  # type: ignore[arg-type]
             joint = palm.add_joint(name=f"{name}/{axis}", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=world_axis)
             joint.armature = 0.05
             servo = self._servo(spec, f"{name}/{axis}", self.position_gain, self.velocity_gain)
@@ -163,13 +164,6 @@ class Hand:
         servo.biasprm[1] = -gain
         servo.biasprm[2] = -damping
         return servo
-
-
-def rotate(orientation: Quaternion, vector: Triple) -> FloatArray:
-    """Return ``vector`` turned by the unit quaternion ``orientation``."""
-    result = np.zeros(3)
-    mujoco.mju_rotVecQuat(result, np.asarray(vector, dtype=np.float64), np.asarray(orientation, dtype=np.float64))
-    return result
 
 
 HAND = Hand()

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
+from prolepsis.geometry.rotations import product, rotated
 from prolepsis.geometry.shape import Quaternion, Triple, quaternion, triple
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.log.things import WITHIN, Mount, Thing, jointed
-from prolepsis.robots.hand import rotate
 from prolepsis.robots.model import RobotModel, robot_model
 from prolepsis.robots.model_shapes import shape_of
 from prolepsis.robots.pr2 import PR2
-from prolepsis.robots.turned import product
 from prolepsis.scene.robot import Robot
 from prolepsis.terms.errors import KnowledgeError, ScenarioError, UnknownNameError
 
@@ -67,7 +66,7 @@ def robot_things(
     for arm in robot.arms:
         palm = read.model.body(arm.gripper.palm).id
         turn, place = quaternion(data.xquat[palm]), triple(data.xpos[palm])
-        place = _sum(place, triple(rotate(turn, arm.gripper.tool)))
+        place = _sum(place, triple(rotated(turn, arm.gripper.tool)))
         position, orientation = _placed(whole, place, product(turn, arm.gripper.tool_orientation))
         found = gripper_thing(arm.name)
         limits = {
@@ -126,7 +125,7 @@ def _opening(kb: KnowledgeBase, name: str, greatest: float) -> float:
 
 def _placed(whole: Thing, position: Triple, orientation: Quaternion) -> tuple[Triple, Quaternion]:
     """Return a pose seen from the robot's root as a pose in the world."""
-    return _sum(whole.position, triple(rotate(whole.orientation, position))), product(whole.orientation, orientation)
+    return _sum(whole.position, triple(rotated(whole.orientation, position))), product(whole.orientation, orientation)
 
 
 def _sum(first: Triple, second: Triple) -> Triple:

@@ -7,8 +7,8 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from prolepsis.geometry.rotations import from_angles
-from prolepsis.geometry.shape import Shape
+from prolepsis.geometry.rotations import turned
+from prolepsis.geometry.shape import IDENTITY, Shape
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.knowledge.situation import MOST_INDIVIDUALS
 from prolepsis.log.things import FIXED, FREE, Thing
@@ -140,7 +140,7 @@ def _thing(kb: KnowledgeBase, name: str, roles: Roles, later: Collection[str] | 
         kind=kind,
         shape=replace(built, colour=colour_of(kb, name)),
         position=(quantities.get("x", 0.0), quantities.get("y", 0.0), quantities.get("z", default_height)),
-        orientation=from_angles((yaw, pitch, roll)),
+        orientation=turned(IDENTITY, (yaw, pitch, roll)),
         mass=quantities.get("mass", 0.0),
         roles=roles(name),
         mount=FIXED if fixed else FREE,

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from prolepsis.geometry.rotations import matrix
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.geometry.signed_distance import Field, field_of
-from prolepsis.geometry.solids import bounded, matrix
+from prolepsis.geometry.solids import bounded
 from prolepsis.log.things import Thing
 
 

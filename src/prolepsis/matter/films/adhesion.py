@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from prolepsis.geometry.rotations import matrix
 from prolepsis.geometry.shape import FloatArray
-from prolepsis.geometry.solids import matrix
 from prolepsis.scene.kind import Controller
 from prolepsis.scene.running import PointJoint, Running
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from prolepsis.geometry.rotations import matrix
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.geometry.signed_distance import field_of
-from prolepsis.geometry.solids import bounded, matrix
+from prolepsis.geometry.solids import bounded
 from prolepsis.scene.running import Running
 
 

@@ -14,8 +14,8 @@ import math
 
 import numpy as np
 
+from prolepsis.geometry.rotations import matrix
 from prolepsis.geometry.shape import FloatArray
-from prolepsis.geometry.solids import matrix
 from prolepsis.matter.films.adhesion import Adhesion, Hold
 from prolepsis.scene.parts import Kernel, Shard
 from prolepsis.scene.running import Running

@@ -13,8 +13,8 @@ import math
 
 import numpy as np
 
+from prolepsis.geometry.rotations import matrix
 from prolepsis.geometry.shape import FloatArray, IntArray
-from prolepsis.geometry.solids import matrix
 from prolepsis.log.happenings import detachment
 from prolepsis.log.log import FREE
 from prolepsis.matter.shells.parts import Membraned

@@ -7,13 +7,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from prolepsis.geometry.rotations import matrix, rotated
 from prolepsis.geometry.shape import FloatArray, Geom, Shape, Triple
-from prolepsis.geometry.solids import matrix
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.log.things import WITHIN, Thing
 from prolepsis.matter.liquids.packing import lattice
 from prolepsis.matter.shells.cutting import CutShell, curvature_radius, ellipsoid_shell
-from prolepsis.robots.hand import rotate
 from prolepsis.scene.colours import colour_of
 from prolepsis.scene.kind import Individuals, Made
 from prolepsis.scene.parts import Kernel, Shard
@@ -198,7 +197,7 @@ def shell_pieces(egg: Thing, shell: Thing) -> tuple[tuple[Thing, ...], tuple[Sha
 
 
 def _placed(egg: Thing, offset: FloatArray) -> Triple:
-    x, y, z = np.asarray(egg.position) + rotate(egg.orientation, (offset[0], offset[1], offset[2]))
+    x, y, z = np.asarray(egg.position) + rotated(egg.orientation, (offset[0], offset[1], offset[2]))
     return (float(x), float(y), float(z))
 
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from prolepsis.geometry.rotations import angles_of, inverse, product, rotated, turned
 from prolepsis.geometry.shape import FloatArray, Quaternion
 from prolepsis.log.things import Thing
 from prolepsis.programs.action import HAND, ParameterSpec, action
@@ -19,8 +20,6 @@ from prolepsis.programs.outline import outline
 from prolepsis.programs.turning import course, matrix, rolled
 from prolepsis.robots.commands import Behaviour, Sense
 from prolepsis.robots.hand import HAND as ROBOT
-from prolepsis.robots.hand import rotate
-from prolepsis.robots.turned import inverse, product, turn_of, turned
 from prolepsis.scene.scene import Scene, reference_of, robot_of_gripper
 from prolepsis.terms.errors import PlanError
 
@@ -49,7 +48,7 @@ def _can_pour(
             raise PlanError(f"plan: {thing.name} has no body to pour {'from' if thing is source else 'to'}")
     if robot_of_gripper(scene, hand) is not None:
         return
-    if max(abs(rotate(hand.orientation, axis)[2]) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))) > LEVEL:
+    if max(abs(rotated(hand.orientation, axis)[2]) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))) > LEVEL:
         raise PlanError(f"plan: {hand.name} is not level, so it cannot pour; allowed: pitch 0 and roll 0, any yaw")
     away = np.abs(np.asarray(target.position) - np.asarray(hand.position)).max()
     if away > ROBOT.workspace:
@@ -107,7 +106,9 @@ def pour(
     sense = yield from as_event("bring", {"hand": hand, "target": target}, approach, sense)
     # The path is seen from where the hand is, the commands from where they were: the servo may lag by a little.
     grip = product(inverse(ahead), state.orientation)
-    rotations = [turn_of(reference, product(turned(ahead, (0.0, 0.0, -side * float(a) - lean)), grip)) for a in angles]
+    rotations = [
+        angles_of(reference, product(turned(ahead, (0.0, 0.0, -side * float(a) - lean)), grip)) for a in angles
+    ]
     turning = follow(hand, sense, np.asarray(state.offset) + displacement, np.unwrap(rotations, axis=0))
     sense = yield from as_event("tilt", {"hand": hand, "angle": round(-side * angle, 3)}, turning, sense)
     return (yield from stay(duration, sense))

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from prolepsis.geometry.rotations import angles_of
 from prolepsis.geometry.shape import FloatArray, Quaternion, triple
 from prolepsis.log.things import Thing
 from prolepsis.programs.action import HAND, ParameterSpec, action
@@ -30,7 +31,6 @@ from prolepsis.robots.commands import (
 )
 from prolepsis.robots.hand import HAND as FREE_HAND
 from prolepsis.robots.model import robot_model, unit_of
-from prolepsis.robots.turned import turn_of
 from prolepsis.scene.robot import Joint
 from prolepsis.scene.scene import Scene, reference_of, robot_of_gripper
 from prolepsis.terms.errors import PlanError
@@ -183,7 +183,7 @@ def _rotations(recording: Recording, reference: Quaternion, here: HandSense, tic
     # Between rows some hundredths of a radian apart, the straight line between quaternions is the arc.
     between = _smooth(recording.time, recording.orientations)(np.concatenate([[0.0], ticks]))
     units = between / np.linalg.norm(between, axis=1)[:, None]
-    rotations = [here.turn, *(turn_of(reference, (float(w), float(x), float(y), float(z))) for w, x, y, z in units)]
+    rotations = [here.turn, *(angles_of(reference, (float(w), float(x), float(y), float(z))) for w, x, y, z in units)]
     return np.unwrap(np.array(rotations), axis=0)[1:]
 
 

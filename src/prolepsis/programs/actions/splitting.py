@@ -7,6 +7,7 @@ from collections.abc import Generator
 
 import numpy as np
 
+from prolepsis.geometry.rotations import angles_of, from_axes
 from prolepsis.geometry.shape import FloatArray, Quaternion, triple
 from prolepsis.log.things import Thing
 from prolepsis.programs.action import FORCE, HAND, HELD, ParameterSpec, action
@@ -19,7 +20,6 @@ from prolepsis.programs.holding import holding
 from prolepsis.programs.profile import least_jerk
 from prolepsis.programs.two_hands import OTHER, SHORTS, HandPose, HeldOut, check_two_arms, hold_out
 from prolepsis.robots.commands import Behaviour, Command, Sense, Way, no_way
-from prolepsis.robots.turned import quaternion_of, turn_of
 from prolepsis.scene.extent import extent_along, support
 from prolepsis.scene.scene import Scene, reference_of
 
@@ -107,7 +107,7 @@ def _draw_apart(
             start.moved(top, axis, -angle / 2 * turned, side * apart * distance / 2 * held.across)
             for turned, apart in shares.tolist()
         ]
-        rotations = [turn_of(reference, quaternion_of(step.rotation)) for step in steps]
+        rotations = [angles_of(reference, from_axes(step.rotation)) for step in steps]
         return np.array([step.position for step in steps]), np.array(rotations)
 
     def maker(hand: Thing, start: HandPose, side: float) -> Maker:

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.geometry.shape import FloatArray, Quaternion
+from prolepsis.geometry.rotations import compose_pose, from_axes, rotated
+from prolepsis.geometry.shape import FloatArray, Quaternion, quaternion
 from prolepsis.robots.effectors.gap import Gap
 from prolepsis.robots.effectors.gripper_control import Drive
 from prolepsis.robots.parts import follow_couplings, pad_geoms
-from prolepsis.robots.turned import quaternion_of
 from prolepsis.scene.robot import Effector
 from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.errors import ScenarioError, UnknownNameError
@@ -108,7 +108,7 @@ def frame(forward: Sequence[float], across: FloatArray, where: str) -> Quaternio
     x = ahead / lengths[0]
     y = across - (across @ x) * x
     y /= np.linalg.norm(y)
-    return quaternion_of(np.stack([x, y, np.cross(x, y)], axis=1))
+    return from_axes(np.stack([x, y, np.cross(x, y)], axis=1))
 
 
 def pad_distance(model: Any, data: Any, first: Sequence[int], second: Sequence[int]) -> float:
@@ -148,13 +148,11 @@ def half_open(model: Any, effector: Effector, where: str) -> Any:
 
 def tool_pose(model: Any, data: Any, effector: Effector) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return origin, x axis and y axis of an effector's frame [m], each shape (3,)."""
-    palm = model.body(effector.palm).id
-    place, turn, x, y = np.zeros(3), np.zeros(4), np.zeros(3), np.zeros(3)
-    tool, orientation = np.array(effector.tool), np.array(effector.tool_orientation)
-    mujoco.mju_mulPose(place, turn, data.xpos[palm], data.xquat[palm], tool, orientation)
-    mujoco.mju_rotVecQuat(x, np.array([1.0, 0.0, 0.0]), turn)
-    mujoco.mju_rotVecQuat(y, np.array([0.0, 1.0, 0.0]), turn)
-    return place, x, y
+    palm = data.body(effector.palm)
+    tool = np.array([*effector.tool, *effector.tool_orientation])
+    pose = compose_pose(np.array([*palm.xpos, *palm.xquat]), tool)
+    turn = quaternion(pose[3:])
+    return pose[:3], rotated(turn, (1.0, 0.0, 0.0)), rotated(turn, (0.0, 1.0, 0.0))
 
 
 def _lengths(model: Any, effector: Effector, where: str) -> FloatArray:
