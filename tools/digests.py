@@ -100,7 +100,7 @@ def digest_of_log(log: Log) -> dict[str, Any]:
         "poses": _digest([log.dt, log.time, *(part for i in order for part in (names[i], log.poses[:, i]))]),
         "carriers": _digest(part for i in order for part in (names[i], *_named(log.carrier[:, i], names))),
         "contacts": _rows(log.contacts, names, named=("a", "b")),
-        "bonds": _rows(log.joints, names, named=("a", "b")),
+        "joints": _rows(log.joints, names, named=("a", "b")),
         "detachments": _rows(log.detachments, names, named=("thing", "a", "b")),
         "particles": _digest(
             [frames.tick, frames.position, frames.spacing, *_named(frames.holder, names), *kinds, *own]

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import mujoco
 import numpy as np
 import pytest
 
 from prolepsis.geometry import rotations
 from prolepsis.geometry.shape import FloatArray, quaternion, triple
+from prolepsis.system.mujoco import mujoco
 
 RANDOM = np.random.default_rng(2)
 

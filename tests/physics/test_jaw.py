@@ -125,9 +125,9 @@ def test_the_gap_is_from_the_fixed_pad_to_the_turning_one() -> None:
     # In the palm's frame: where it holds on the fixed pad, the hinge, and the middle of the moving pad's face.
     foot, hinge, face, tilt = np.array([0.0975, -0.0015]), np.array([0.0234, 0.0202]), np.array([0.0756, -0.0175]), 0.35
     for angle in np.linspace(gap.first, 0.45, 9):
-        turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
-        inward = turn @ np.array([-math.sin(tilt), -math.cos(tilt)])
-        assert gap.opening(angle) == pytest.approx((hinge + turn @ face - foot) @ -inward - 0.0045, abs=2e-5)
+        rotation = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+        inward = rotation @ np.array([-math.sin(tilt), -math.cos(tilt)])
+        assert gap.opening(angle) == pytest.approx((hinge + rotation @ face - foot) @ -inward - 0.0045, abs=2e-5)
         # The force of a pad along its normal has the lever with which the gap grows.
         arm = foot - hinge
         assert gap.lever(angle) == pytest.approx(inward[0] * arm[1] - inward[1] * arm[0], abs=2e-4)

@@ -23,14 +23,14 @@ class FakeHand:
     """A hand that does at once what it is told."""
 
     def __init__(self, position: Triple, opening: float = 0.05) -> None:
-        self.start, self.offset, self.turn = position, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+        self.start, self.offset, self.rotation = position, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
         self.opening, self.motion, self.force = opening, 0, 0.0
 
     def obey(self, commands: tuple[Command, ...]) -> None:
         self.motion = 0
         for command in commands:
             if isinstance(command, HandTarget):
-                self.offset, self.turn = command.offset, command.turn
+                self.offset, self.rotation = command.offset, command.rotation
             elif isinstance(command, OpenGripper):
                 self.opening = command.width
             elif isinstance(command, CloseGripper):
@@ -41,7 +41,7 @@ class FakeHand:
         hand = HandSense(
             position=(here[0], here[1], here[2]),
             offset=self.offset,
-            turn=self.turn,
+            rotation=self.rotation,
             opening=self.opening,
             grip=self.force,
             load=lambda: (0.0, 0.0, min(HAND.position_gain * self.offset[2], 0.0)),
@@ -105,12 +105,12 @@ def test_a_move_keeps_to_its_acceleration_and_speed(egg_in_hand: Scene) -> None:
 def test_a_tilt_keeps_to_its_rate_and_a_tilted_hand_stays_tilted_when_it_is_carried(egg_in_hand: Scene) -> None:
     said = carried_out("sequence([tilt(hand1, 1.2, 2.0), carry(hand1, [0.1, 0, 0], 4.0)])", egg_in_hand)
     targets = [c for _, c in said if isinstance(c, HandTarget)]
-    rolls = [c.turn[2] for c in targets]
+    rolls = [c.rotation[2] for c in targets]
     steps = [(b - a) / 1e-3 for a, b in zip(rolls, rolls[1:], strict=False)]
     assert max(steps) == pytest.approx(2.0, rel=0.01)
     assert min(steps) >= 0.0
-    assert [c.spin[2] for c in targets][1 : len(steps) + 1] == pytest.approx(steps, abs=0.01)
-    assert targets[-1].turn == pytest.approx((0.0, 0.0, 1.2))
+    assert [c.angular_velocity[2] for c in targets][1 : len(steps) + 1] == pytest.approx(steps, abs=0.01)
+    assert targets[-1].rotation == pytest.approx((0.0, 0.0, 1.2))
     assert targets[-1].offset == pytest.approx((0.1, 0.0, 0.0))
 
 

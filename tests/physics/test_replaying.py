@@ -97,15 +97,17 @@ def test_an_arm_is_where_it_was_recorded(tmp_path: Path) -> None:
     hand = composed(ROBOT).thing("rightGripper")
     time, ways = loop(2.5)
     places = ways + hand.position
-    turns = [product((math.cos(a / 2), 0.0, 0.0, math.sin(a / 2)), hand.orientation) for a in 0.3 * np.sin(3 * time)]
+    rotations = [
+        product((math.cos(a / 2), 0.0, 0.0, math.sin(a / 2)), hand.orientation) for a in 0.3 * np.sin(3 * time)
+    ]
     columns = {"time": time, **dict(zip("xyz", places.T, strict=True))}
-    columns |= dict(zip(("qw", "qx", "qy", "qz"), np.array(turns).T, strict=True))
+    columns |= dict(zip(("qw", "qx", "qy", "qz"), np.array(rotations).T, strict=True))
     log = replayed(tmp_path, ROBOT, columns, "rightGripper")
     assert log.actions[0].outcome == "done"
     seen = pads_of(log)[np.rint(time * 1000).astype(int) + log.actions[0].start]
     # At up to 4 m/s^2, a servo of 10 Hz lags by 4 / (2 pi 10)^2 = 1 mm; those of several joints add up.
     assert np.linalg.norm(seen[:, :3] - places, axis=1).max() < 5e-3
-    assert np.abs((seen[:, 3:] * turns).sum(axis=1)).min() > math.cos(0.02)
+    assert np.abs((seen[:, 3:] * rotations).sum(axis=1)).min() > math.cos(0.02)
     assert float(log.actions[0].evidence["behind"]) < 3e-3
 
 
@@ -142,8 +144,8 @@ def test_a_hand_goes_to_where_the_recording_starts(tmp_path: Path) -> None:
 
 
 def test_parquet_tells_the_same_as_csv(tmp_path: Path) -> None:
-    turns = {"yaw": [0.0, 0.1, 0.2], "pitch": [0.5] * 3, "roll": [0.0] * 3}
-    write(tmp_path / "a.csv", {**FULL, **turns})
+    rotations = {"yaw": [0.0, 0.1, 0.2], "pitch": [0.5] * 3, "roll": [0.0] * 3}
+    write(tmp_path / "a.csv", {**FULL, **rotations})
     parquet.write_table(csv.read_csv(tmp_path / "a.csv"), tmp_path / "a.parquet")  # pyright: ignore
     first, second = (read_recording(tmp_path / f"a.{kind}", []) for kind in ("csv", "parquet"))
     assert first.displacements is not None and second.displacements is not None and first.orientations is not None

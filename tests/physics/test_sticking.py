@@ -12,7 +12,7 @@ from prolepsis.engine.state import State
 from prolepsis.engine.world import compile_world
 from prolepsis.fluents import recognize
 from prolepsis.log.log import FREE, Log
-from prolepsis.matter.films.adhesion import Adhesion, Hold
+from prolepsis.matter.films.adhesion import Adhesion, AdhesiveJoint
 from prolepsis.scene.parts import Shard
 from prolepsis.system.mujoco import mujoco
 
@@ -66,10 +66,10 @@ def test_a_piece_comes_off_a_boiled_egg_at_the_force_of_the_ontology() -> None:
     kernel = state.world.scene.index("kernel1")
     go_on(state, controller)
     go_on(state, controller)
-    assert len(state.bonds) == 30
+    assert len(state.joints) == 30
     out = next(hold.normal for hold in controller.holds if hold.held == state.world.scene.index(pulled.name))
     force = 0.0
-    while (kernel, state.world.scene.index(pulled.name)) in state.bonds and force < 5.0:
+    while (kernel, state.world.scene.index(pulled.name)) in state.joints and force < 5.0:
         state.data.joint("kernel1").qvel[:] = 0.0  # held fast
         force += 1.0e-3  # 1 N/s, slow against the joint's 2 ms
         state.data.qfrc_applied[:] = 0.0
@@ -78,7 +78,7 @@ def test_a_piece_comes_off_a_boiled_egg_at_the_force_of_the_ontology() -> None:
         mujoco.mj_applyFT(state.model, state.data, force * out, nothing, body.xpos, body.id, state.data.qfrc_applied)
         go_on(state, controller)
     assert force == pytest.approx(2500.0 * area, rel=0.05)
-    assert len(state.bonds) == 29
+    assert len(state.joints) == 29
 
 
 def test_joints_stay_in_place_when_a_shard_falls_apart() -> None:
@@ -127,7 +127,7 @@ def test_a_wet_piece_sticks_to_a_wall_until_the_film_has_run_out(wet: bool) -> N
         else:
             state.data.body(piece.name).xfrc_applied[:] = 0.0
         go_on(state, controller)
-        stuck_at = stuck_at or (tick * 1e-3 if state.bonds else 0.0)
+        stuck_at = stuck_at or (tick * 1e-3 if state.joints else 0.0)
         if joint.qpos[2] < 0.25:
             fell_at = tick * 1e-3
             break
@@ -146,6 +146,6 @@ def test_a_wet_piece_sticks_to_a_wall_until_the_film_has_run_out(wet: bool) -> N
 
 
 def test_a_hold_weakens_with_time() -> None:
-    hold = Hold(holder=0, held=1, place=np.zeros(3), normal=np.zeros(3), strength=1.0, lasting=2.0, since=1.0)
+    hold = AdhesiveJoint(holder=0, held=1, place=np.zeros(3), normal=np.zeros(3), strength=1.0, lasting=2.0, since=1.0)
     assert hold.strength_at(1.0) == 1.0
     assert hold.strength_at(3.0) == pytest.approx(math.exp(-1.0))

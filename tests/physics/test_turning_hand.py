@@ -26,15 +26,15 @@ def cups(side: float = 0.15, x: float = 0.0, hand: str = "") -> str:
 def frames(log: Log, name: str, ticks: range) -> tuple[FloatArray, FloatArray]:
     """Return places (n, 3) [m] and rotation matrices (n, 3, 3) of a thing."""
     rows = log.poses[ticks, log.index(name)]
-    turns = np.array([matrix((float(w), float(x), float(y), float(z))) for w, x, y, z in rows[:, 3:]])
-    return rows[:, :3], turns
+    rotations = np.array([matrix((float(w), float(x), float(y), float(z))) for w, x, y, z in rows[:, 3:]])
+    return rows[:, :3], rotations
 
 
 def in_hand(log: Log, ticks: range) -> tuple[FloatArray, FloatArray]:
     """Return how far cup1 is from where it was in the hand at first [m], and how far it has turned there [degree]."""
-    (hand, turn), (cup, cup_turn) = frames(log, "hand1/palm", ticks), frames(log, "cup1", ticks)
-    place = np.einsum("tji,tj->ti", turn, cup - hand)
-    relative = np.einsum("tji,tjk->tik", turn, cup_turn)
+    (hand, rotation), (cup, cup_turn) = frames(log, "hand1/palm", ticks), frames(log, "cup1", ticks)
+    place = np.einsum("tji,tj->ti", rotation, cup - hand)
+    relative = np.einsum("tji,tjk->tik", rotation, cup_turn)
     cosine = (np.einsum("ji,tji->t", relative[0], relative) - 1) / 2
     return np.linalg.norm(place - place[0], axis=1), np.degrees(np.arccos(np.clip(cosine, -1, 1)))
 
@@ -53,9 +53,9 @@ def test_a_cup_stays_in_the_grip_while_it_is_turned_to_120_degrees_and_back(angl
     moved, turned = in_hand(log, held)
     assert moved.max() < SEATED
     assert turned.max() < 0.5
-    _, turns = frames(log, "cup1", range(log.actions[2].end - 1, log.actions[2].end))
+    _, rotations = frames(log, "cup1", range(log.actions[2].end - 1, log.actions[2].end))
     # A turn about x by a: the cup's own upward axis is (0, -sin a, cos a).
-    assert turns[0][:, 2] == pytest.approx((0.0, -np.sin(angle), np.cos(angle)), abs=0.01)
+    assert rotations[0][:, 2] == pytest.approx((0.0, -np.sin(angle), np.cos(angle)), abs=0.01)
 
 
 @pytest.mark.parametrize(
@@ -76,11 +76,11 @@ def test_the_lip_stays_over_the_target_and_nothing_touches_it(side: float, x: fl
     _, tilts = frames(log, "cup1", range(pour.start, pour.end))
     turning = pour.start + int(np.flatnonzero(tilts[:, 2, 2] < np.cos(0.1))[0])
     ticks = range(turning, pour.end, 10)
-    places, turns = frames(log, "cup1", ticks)
+    places, rotations = frames(log, "cup1", ticks)
     target = log.poses[0, log.index("cup2"), :3]
     yaw = np.radians(20.0 if hand else 0.0)
     way = np.sign(side) * np.array([-np.sin(yaw), np.cos(yaw), 0.0])
-    up = turns[:, :, 2]
+    up = rotations[:, :, 2]
     # The lip, from first principles: the lowest point of the rim's circle.
     down = np.array([0.0, 0.0, -1.0])
     out = down - (up @ down)[:, None] * up

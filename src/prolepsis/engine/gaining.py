@@ -59,7 +59,7 @@ class Surroundings:
 
     contacts: Contacts
     """Between things."""
-    bonds: Joints
+    joints: Joints
     """What stuck to what."""
     wet: BoolArray
     """Whether a liquid pushed each, shape (T, n); of no rows without liquids."""
@@ -264,9 +264,9 @@ def gains(
 
 def _pairs(around: Surroundings) -> IntArray:
     """Return tick and both things of what touches or sticks, by ticks, shape (R, 3)."""
-    contacts, bonds = around.contacts, around.bonds
+    contacts, joints = around.contacts, around.joints
     table = [np.stack([contacts.tick, contacts.a, contacts.b], axis=1)]
-    rows = np.stack([bonds.a, bonds.b, bonds.start, bonds.end], axis=1)
+    rows = np.stack([joints.a, joints.b, joints.start, joints.end], axis=1)
     for a, b, start, end in rows.tolist():
         table.append(np.array([(tick, a, b) for tick in range(start, end)], dtype=np.int64).reshape(-1, 3))
     found = np.concatenate(table)

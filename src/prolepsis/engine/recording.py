@@ -48,7 +48,7 @@ class Recorder:
         default_factory=list[tuple[int, int, IntArray, FloatArray]]
     )
     """Geoms and distances [m] of contacts in which solids overlap more than contacts usually do."""
-    bonds: dict[tuple[int, int], list[tuple[int, int]]] = field(
+    joints: dict[tuple[int, int], list[tuple[int, int]]] = field(
         default_factory=dict[tuple[int, int], list[tuple[int, int]]]
     )
     """What stuck to what, from which tick to before which."""
@@ -101,8 +101,8 @@ class Recorder:
     def tick(self, state: State) -> None:
         """Copy the poses at the start of a tick."""
         state.renew_poses()
-        for pair in state.bonds:
-            now, runs = len(self.poses), self.bonds.setdefault(pair, [])
+        for pair in state.joints:
+            now, runs = len(self.poses), self.joints.setdefault(pair, [])
             start = runs.pop()[0] if runs and runs[-1][1] == now else now
             runs.append((start, now + 1))
         if state.particles is not None:
@@ -143,7 +143,7 @@ class Recorder:
         for tick, (pushed, heavy) in enumerate(self.wet):
             body_of = self.versions[self.poses[tick][0]].body_of
             wet[tick], mass[tick] = pushed[body_of], heavy[body_of]
-        return Surroundings(contacts=contacts, bonds=self.bond_columns(), wet=wet, mass=mass, particles=particles)
+        return Surroundings(contacts=contacts, joints=self.joint_columns(), wet=wet, mass=mass, particles=particles)
 
     def pose_columns(self) -> tuple[FloatArray, IntArray]:
         """Return poses, shape (T, n, 7), and carriers, shape (T, n)."""
@@ -170,9 +170,9 @@ class Recorder:
             last = block[-1]
         return poses, carriers
 
-    def bond_columns(self) -> Joints:
+    def joint_columns(self) -> Joints:
         """Return one row for each time that two things stuck together."""
-        rows = sorted((start, end, *pair) for pair, runs in self.bonds.items() for start, end in runs)
+        rows = sorted((start, end, *pair) for pair, runs in self.joints.items() for start, end in runs)
         start, end, a, b = np.array(rows, dtype=np.int64).reshape(-1, 4).T
         return Joints(a=a, b=b, start=start, end=end)
 

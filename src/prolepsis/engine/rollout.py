@@ -76,7 +76,7 @@ def read_rollout(model: Any, states: FloatArray, dt: float, scene: SceneThings |
         poses=poses,
         carrier=carrier,
         contacts=contacts,
-        joints=_bonds(model, found, switched, sticking, stuck, contacts, touching),
+        joints=_joints(model, found, switched, sticking, stuck, contacts, touching),
         gravity=(float(model.opt.gravity[0]), float(model.opt.gravity[1]), float(model.opt.gravity[2])),
     )
 
@@ -105,7 +105,7 @@ def _adhesive_bodies(model: Any) -> list[tuple[int, int]]:
     ]
 
 
-def _bonds(
+def _joints(
     model: Any,
     found: ModelThings,
     switched: BoolArray,

@@ -156,7 +156,7 @@ def simulate(
         poses=poses,
         carrier=carriers,
         contacts=contacts,
-        joints=recorder.bond_columns(),
+        joints=recorder.joint_columns(),
         happenings=happening_columns(state.happenings),
         channels=channels.columns(),
         actions=tuple(sorted((a for a in actions if a.end > a.start), key=lambda a: (a.start, -a.end, str(a.term)))),

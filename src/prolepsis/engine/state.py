@@ -57,7 +57,7 @@ class State:
     """What controllers have changed: (thing, attribute) to its value."""
     particles: ParticleState | None = None
     """The particles of all liquids, if there are any."""
-    bonds: set[tuple[int, int]] = field(default_factory=set[tuple[int, int]])
+    joints: set[tuple[int, int]] = field(default_factory=set[tuple[int, int]])
     """What sticks to what now: indices of the holding and the held thing."""
     _body_of_geom: list[int] = field(default_factory=list[int])
     _bodies_version: int = -1

@@ -11,7 +11,7 @@ from prolepsis.geometry.shape import FloatArray, Triple, triple
 from prolepsis.log.things import Thing
 from prolepsis.programs.profile import least_jerk, least_time
 from prolepsis.programs.turning import TICK
-from prolepsis.robots.commands import ActionFailedError, Arm, ArmTarget, Behaviour, HandTarget, Sense, Way
+from prolepsis.robots.commands import ActionFailedError, ArmSense, ArmTarget, Behaviour, HandTarget, Sense, Way
 
 KNOTS = 40
 """Ticks between two positions at which the joints of a given course are computed."""
@@ -28,15 +28,15 @@ def follow(hand: Thing, sense: Sense, offsets: FloatArray, rotations: FloatArray
     here = sense.hands[hand.name]
     if here.arm is None:
         velocities = np.diff(offsets, axis=0, prepend=[here.offset]) / TICK
-        spins = np.diff(rotations, axis=0, prepend=[here.turn]) / TICK
-        for offset, velocity, rotation, spin in zip(offsets, velocities, rotations, spins, strict=True):
+        rates = np.diff(rotations, axis=0, prepend=[here.rotation]) / TICK
+        for offset, velocity, rotation, rate in zip(offsets, velocities, rotations, rates, strict=True):
             sense = yield (
                 HandTarget(
                     hand=hand.name,
                     offset=triple(offset),
                     velocity=triple(velocity),
-                    turn=triple(rotation),
-                    spin=triple(spin),
+                    rotation=triple(rotation),
+                    angular_velocity=triple(rate),
                 ),
             )
         return sense
@@ -88,7 +88,7 @@ def _spline(times: FloatArray, points: FloatArray) -> Callable[..., FloatArray]:
     return spline
 
 
-def _stretch(course: Callable[..., FloatArray], duration: float, arm: Arm) -> float:
+def _stretch(course: Callable[..., FloatArray], duration: float, arm: ArmSense) -> float:
     """Return by how much slower a course must be gone for the joints to follow: at least 1."""
     moments = np.linspace(0.0, duration, max(int(duration / (5 * TICK)), 2))
     speeds = np.abs(course(moments, 1)).max(axis=0) / arm.speeds
@@ -102,7 +102,7 @@ def _target(hand: Thing, joints: FloatArray, rates: FloatArray, offset: object, 
         joints=tuple(joints.tolist()),
         speeds=tuple(rates.tolist()),
         offset=triple(offset),
-        turn=triple(rotation),
+        rotation=triple(rotation),
     )
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from prolepsis.geometry.rotations import rotated, turned
 from prolepsis.geometry.shape import FloatArray, Quaternion, Triple, triple
 from prolepsis.log.things import Thing
-from prolepsis.robots.commands import Arm, Sense
+from prolepsis.robots.commands import ArmSense, Sense
 from prolepsis.scene.extent import extent_along, middle
 
 STANDOFF = 0.08
@@ -106,11 +106,13 @@ def grasp_as_turned(hand: Thing, object: Thing, sense: Sense, height: float) -> 
     if here.arm is not None:
         ahead, across = here.arm.held_at(width)
         displacement = displacement - ahead * forward - across * rotated(here.orientation, (0.0, 1.0, 0.0))
-    return GraspPose(offset=_sum(here.offset, displacement), rotation=here.turn, width=width, forward=triple(forward))
+    return GraspPose(
+        offset=_sum(here.offset, displacement), rotation=here.rotation, width=width, forward=triple(forward)
+    )
 
 
 def grasp_poses(
-    hand: Thing, object: Thing, sense: Sense, height: float, arm: Arm, reference: Quaternion, short: float = 0.0
+    hand: Thing, object: Thing, sense: Sense, height: float, arm: ArmSense, reference: Quaternion, short: float = 0.0
 ) -> Iterator[GraspPose]:
     """Yield the poses at which a hand on an arm can hold an object, the most natural first.
 

@@ -88,7 +88,7 @@ def hand_poses(hand: HandSense, held: Thing, spot: Spot, reference: Quaternion) 
     turned as it is.
     """
     if hand.arm is None:
-        yield position_of(hand, held, spot.point, hand.orientation), hand.turn
+        yield position_of(hand, held, spot.point, hand.orientation), hand.rotation
         return
     bearing = hand.arm.bearing(spot.point)
     yaws = [bearing]
@@ -98,7 +98,7 @@ def hand_poses(hand: HandSense, held: Thing, spot: Spot, reference: Quaternion) 
         yaws = [bearing + away for away in sorted(around, key=abs) if abs(away) <= FACING]
     for yaw in yaws:
         for pitch in PITCHES:
-            rotation = (yaw, math.radians(pitch), hand.turn[2])
+            rotation = (yaw, math.radians(pitch), hand.rotation[2])
             yield position_of(hand, held, spot.point, turned(reference, rotation)), rotation
 
 
@@ -148,9 +148,9 @@ def _away(hand: HandSense, spot: Spot) -> float:
 
 def position_of(hand: HandSense, held: Thing, point: Triple, orientation: Quaternion) -> Triple:
     """Return the position of a hand, turned to ``orientation``, where what it holds touches a point from above [m]."""
-    spin = product(orientation, inverse(hand.orientation))
-    there = replace(held, orientation=product(spin, held.orientation))
-    arm = matrix(spin) @ (np.asarray(held.position) + middle(held) - np.asarray(hand.position))
+    angular_velocity = product(orientation, inverse(hand.orientation))
+    there = replace(held, orientation=product(angular_velocity, held.orientation))
+    arm = matrix(angular_velocity) @ (np.asarray(held.position) + middle(held) - np.asarray(hand.position))
     goal = np.asarray(point) + (0.0, 0.0, _depth_below(there)) - arm
     first = np.asarray(hand.position) - np.asarray(hand.offset)
     return triple(goal - first)
@@ -161,10 +161,13 @@ def move_held(hand: Thing, held: Thing, sense: Sense, offset: Triple, rotation: 
     here = sense.hands[hand.name]
     if here.arm is not None:
         return (yield from go(hand, sense, offset, rotation, {held.name}, held.name))
-    displacement, spin = np.subtract(offset, here.offset), np.subtract(rotation, here.turn)
-    duration = PEAK_SPEED * max(float(np.linalg.norm(displacement)), float(np.abs(spin).max())) / STRAIGHT_SPEED
+    displacement, turning = np.subtract(offset, here.offset), np.subtract(rotation, here.rotation)
+    duration = PEAK_SPEED * max(float(np.linalg.norm(displacement)), float(np.abs(turning).max())) / STRAIGHT_SPEED
     shares = np.array([share for share, _ in least_jerk(duration)])[:, None]
-    offsets, rotations = np.asarray(here.offset) + shares * displacement, np.asarray(here.turn) + shares * spin
+    offsets, rotations = (
+        np.asarray(here.offset) + shares * displacement,
+        np.asarray(here.rotation) + shares * turning,
+    )
     return (yield from follow(hand, sense, offsets, rotations))
 
 

@@ -109,12 +109,12 @@ class ArmHand:
         """Take a command for this hand."""
         if isinstance(command, HandTarget):
             self._target, self._idle = command, 0
-            self._offset, self._turn = command.offset, command.turn
+            self._offset, self._turn = command.offset, command.rotation
         elif isinstance(command, ArmTarget):
             self._target, self._lag, self._idle = None, 0.0, 0
             self._joints, self._rates = np.array(command.joints), np.array(command.speeds)
             self._offset = command.offset
-            self._turn = command.turn if self.ways.turns_freely else self.ways.place(self._joints)[1]
+            self._turn = command.rotation if self.ways.turns_freely else self.ways.place(self._joints)[1]
         else:
             self.gripper.accept(command)
 
@@ -142,7 +142,7 @@ class ArmHand:
         goal = np.array(self._first) + target.offset
         self._lag = float(np.linalg.norm(goal - here))
         place = here + CATCHING_UP * (goal - here) + fresh * np.array(target.velocity)
-        yaw, pitch, roll = (a + fresh * s for a, s in zip(target.turn, target.spin, strict=True))
+        yaw, pitch, roll = (a + fresh * s for a, s in zip(target.rotation, target.angular_velocity, strict=True))
         pose = np.array([*place, *turned(self._reference, (yaw, pitch, roll))])
         self._rates = self._kinematics.step(self._joints, relative_pose(self._mount_pose(), pose), ahead)
 
@@ -162,7 +162,7 @@ class ArmHand:
             position=triple(self._data.site_xpos[self._tool]),
             orientation=self._orientation(),
             offset=self._offset,
-            turn=self._turn,
+            rotation=self._turn,
             opening=self.gripper.opening,
             grip=self.gripper.command,
             load=self._load,
@@ -189,7 +189,7 @@ class ArmHand:
     def _load(self) -> Triple:
         # A force at the hand displaces it by the servos' compliance; what it is displaced by tells the force.
         displaced = self._commanded()[:3] - self._data.site_xpos[self._tool]
-        turn: FloatArray = np.asarray(self._data.xmat[self._mount], dtype=np.float64).reshape(3, 3)
-        local: FloatArray = np.asarray(np.linalg.solve(self._compliance(), turn.T @ displaced), dtype=np.float64)
-        force: FloatArray = turn @ local
+        rotation: FloatArray = np.asarray(self._data.xmat[self._mount], dtype=np.float64).reshape(3, 3)
+        local: FloatArray = np.asarray(np.linalg.solve(self._compliance(), rotation.T @ displaced), dtype=np.float64)
+        force: FloatArray = rotation @ local
         return triple(force)

@@ -77,15 +77,15 @@ class ArmWays:
         """Return where what is ``width`` [m] wide has its middle when it is held, along the hand's x and y [m]."""
         return self._gap.held_at(width)
 
-    def feasible(self, offset: Triple, turn: Triple) -> Triple:
+    def feasible(self, offset: Triple, rotation: Triple) -> Triple:
         """Return the nearest turn to ``turn`` that is possible at a place: an arm of five joints cannot have all."""
         if self.turns_freely:
-            return turn
-        pose, starts = self._seen(np.asarray(offset), np.asarray(turn)), (self.joints, self._kinematics.home)
+            return rotation
+        pose, starts = self._seen(np.asarray(offset), np.asarray(rotation)), (self.joints, self._kinematics.home)
         if any(self._kinematics.solve(pose, start).is_there for start in starts):
-            return turn
+            return rotation
         yawed = (self._kinematics.solve(pose, start, any_yaw=True) for start in starts)
-        return next((self.place(found.joints)[1] for found in yawed if found.is_there), turn)
+        return next((self.place(found.joints)[1] for found in yawed if found.is_there), rotation)
 
     def place(self, joints: FloatArray) -> tuple[Triple, Triple]:
         """Return place and turn of the hand with the given coordinates [rad], shape (n,)."""
@@ -93,13 +93,13 @@ class ArmWays:
         x, y, z = self._first
         return (pose[0] - x, pose[1] - y, pose[2] - z), angles_of(self._reference, (pose[3], pose[4], pose[5], pose[6]))
 
-    def path(self, offsets: FloatArray, turns: FloatArray, *, loose: bool = False) -> Way:
+    def path(self, offsets: FloatArray, rotations: FloatArray, *, loose: bool = False) -> Way:
         """Return the joints along places and turns, each shape (k, 3); ``loose`` turns may be off about the vertical
         where an arm of five joints cannot have them."""
         joints: list[FloatArray] = []
         now = self.joints
-        for offset, turn in zip(offsets, turns, strict=True):
-            pose = self._seen(offset, turn)
+        for offset, rotation in zip(offsets, rotations, strict=True):
+            pose = self._seen(offset, rotation)
             found = self._kinematics.solve(pose, now, near=now)
             if loose and not found.is_there and not self.turns_freely:
                 found = self._kinematics.solve(pose, now, near=now, any_yaw=True)
@@ -112,7 +112,7 @@ class ArmWays:
     def way(
         self,
         offset: Triple,
-        turn: Triple,
+        rotation: Triple,
         ignoring: Collection[str],
         opening: float | None = None,
         held: str | None = None,
@@ -127,7 +127,7 @@ class ArmWays:
         nearest: Found | None = None
         blocked = ""
         chosen: list[tuple[float, FloatArray]] = []
-        for found in self._postures(np.asarray(offset), np.asarray(turn)):
+        for found in self._postures(np.asarray(offset), np.asarray(rotation)):
             if not found.is_there:
                 nearest = found if nearest is None or found.distance < nearest.distance else nearest
                 continue
@@ -136,7 +136,7 @@ class ArmWays:
             if not hit:
                 chosen.append((self._strain(found.joints), found.joints))
         for _, joints in sorted(chosen, key=lambda each: each[0]):
-            for postures in self._courses(joints, np.asarray(offset), np.asarray(turn)):
+            for postures in self._courses(joints, np.asarray(offset), np.asarray(rotation)):
                 hit = self._touched_on(postures, ignoring)
                 if not hit:
                     return Way(joints=np.array(postures))
@@ -165,17 +165,17 @@ class ArmWays:
         margin = np.minimum(joints - self._kinematics.low, self._kinematics.high - joints)
         return float(away @ away) + AT_THE_END * int((margin < MARGIN).sum())
 
-    def _postures(self, offset: FloatArray, turn: FloatArray) -> Iterator[Found]:
+    def _postures(self, offset: FloatArray, rotation: FloatArray) -> Iterator[Found]:
         """Yield solutions from several starts."""
-        pose = self._seen(offset, turn)
+        pose = self._seen(offset, rotation)
         for start in (self.joints, *self._starts):
             yield self._kinematics.solve(pose, start)
 
-    def _courses(self, goal: FloatArray, offset: FloatArray, turn: FloatArray) -> Iterator[list[FloatArray]]:
+    def _courses(self, goal: FloatArray, offset: FloatArray, rotation: FloatArray) -> Iterator[list[FloatArray]]:
         """Yield postures to go through: straight to the goal, or through a place above it."""
         yield [self.joints, goal]
         for height in VIA_HEIGHTS:
-            above = self._kinematics.solve(self._seen(offset + (0.0, 0.0, height), turn), goal)
+            above = self._kinematics.solve(self._seen(offset + (0.0, 0.0, height), rotation), goal)
             if above.is_there:
                 yield [self.joints, above.joints, goal]
 
@@ -220,9 +220,9 @@ class ArmWays:
         data = self._state.data
         return np.array([*data.xpos[self._mount], *data.xquat[self._mount]])
 
-    def _seen(self, offset: FloatArray, turn: FloatArray) -> FloatArray:
+    def _seen(self, offset: FloatArray, rotation: FloatArray) -> FloatArray:
         """Return a place and a turn of the hand as a pose seen from the mount, shape (7,)."""
-        yaw, pitch, roll = (float(a) for a in turn)
+        yaw, pitch, roll = (float(a) for a in rotation)
         place = [f + float(o) for f, o in zip(self._first, offset, strict=True)]
         return relative_pose(self._mount_pose(), np.array([*place, *turned(self._reference, (yaw, pitch, roll))]))
 

@@ -20,9 +20,9 @@ class HandTarget:
     """Displacement from the first position, world axes [m]."""
     velocity: Triple = (0.0, 0.0, 0.0)
     """Its rate of change [m/s]."""
-    turn: Triple = (0.0, 0.0, 0.0)
+    rotation: Triple = (0.0, 0.0, 0.0)
     """Yaw, pitch and roll from the first orientation, about the hand's own axes [rad]."""
-    spin: Triple = (0.0, 0.0, 0.0)
+    angular_velocity: Triple = (0.0, 0.0, 0.0)
     """Its rate of change [rad/s]."""
 
 
@@ -37,7 +37,7 @@ class ArmTarget:
     """Their rates of change [rad/s]."""
     offset: Triple
     """Where that puts the hand, as in ``HandTarget`` [m]."""
-    turn: Triple
+    rotation: Triple
     """How that turns the hand, as in ``HandTarget`` [rad]."""
 
 
@@ -124,7 +124,7 @@ def no_way(first: Way | None, what: str, otherwise: str) -> ActionFailedError:
     return ActionFailedError(first.problem, f"{what}: {first.detail}")
 
 
-class Arm(Protocol):
+class ArmSense(Protocol):
     """The arm that carries a hand, as a program may ask it. Places and turns are those of ``HandTarget``."""
 
     @property
@@ -150,7 +150,7 @@ class Arm(Protocol):
         """Return where what is ``width`` [m] wide has its middle when it is held, along the hand's x and y [m]."""
         ...
 
-    def feasible(self, offset: Triple, turn: Triple) -> Triple:
+    def feasible(self, offset: Triple, rotation: Triple) -> Triple:
         """Return the nearest turn to ``turn`` that is possible at a place: an arm of five joints cannot have all."""
         ...
 
@@ -158,7 +158,7 @@ class Arm(Protocol):
         """Return place and turn of the hand with the given coordinates [rad], shape (n,)."""
         ...
 
-    def path(self, offsets: FloatArray, turns: FloatArray, *, loose: bool = False) -> Way:
+    def path(self, offsets: FloatArray, rotations: FloatArray, *, loose: bool = False) -> Way:
         """Return the joints along places and turns one after the other, each shape (k, 3), from where they are;
         ``loose`` turns may be off about the vertical where an arm of five joints cannot have them."""
         ...
@@ -166,7 +166,7 @@ class Arm(Protocol):
     def way(
         self,
         offset: Triple,
-        turn: Triple,
+        rotation: Triple,
         ignoring: Collection[str],
         opening: float | None = None,
         held: str | None = None,
@@ -201,7 +201,7 @@ class HandSense:
     """Its commanded orientation in the world."""
     offset: Triple
     """Its commanded displacement from the first position [m]."""
-    turn: Triple
+    rotation: Triple
     """Its commanded yaw, pitch and roll from the first orientation [rad]."""
     opening: float
     """Gap between the pads [m]."""
@@ -221,7 +221,7 @@ class HandSense:
     """How far the commanded joints are from putting the hand on its target [m]."""
     bump: str = ""
     """What the hand's arm or palm is pressed against, if anything."""
-    arm: Arm | None = None
+    arm: ArmSense | None = None
     """The arm that carries it; None for a hand that flies."""
 
 

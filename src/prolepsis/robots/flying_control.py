@@ -60,8 +60,8 @@ class FlyingHand:
         """Set the motors for the coming tick of ``dt`` [s]."""
         target = self._target
         # The base's target runs ahead by the lag that the servo's damping causes.
-        where = np.array([*target.offset, *target.turn])
-        self._data.ctrl[self._servos] = where + self._lags * np.array([*target.velocity, *target.spin])
+        where = np.array([*target.offset, *target.rotation])
+        self._data.ctrl[self._servos] = where + self._lags * np.array([*target.velocity, *target.angular_velocity])
         self.gripper.act(dt)
 
     def measure(self, forces: list[tuple[int, int, int, float]]) -> None:
@@ -73,9 +73,9 @@ class FlyingHand:
         x, y, z = (float(value) for value in self._data.xpos[self._palm])
         return HandSense(
             position=(x, y, z),
-            orientation=turned(self._first, self._target.turn),
+            orientation=turned(self._first, self._target.rotation),
             offset=self._target.offset,
-            turn=self._target.turn,
+            rotation=self._target.rotation,
             opening=self.gripper.opening,
             grip=self.gripper.command,
             load=self._load,

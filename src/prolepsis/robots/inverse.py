@@ -119,9 +119,9 @@ class ArmKinematics:
         """Return where the gripper's frame is with the given coordinates, seen from the mount, shape (7,)."""
         self._here.update(joints)
         data = self._here.data
-        turn, result = np.zeros(4), np.zeros(7)
-        mujoco.mju_mat2Quat(turn, data.site_xmat[self._site])
-        mujoco.mju_mulPose(result[:3], result[3:], *self._mount_back, data.site_xpos[self._site], turn)
+        rotation, result = np.zeros(4), np.zeros(7)
+        mujoco.mju_mat2Quat(rotation, data.site_xmat[self._site])
+        mujoco.mju_mulPose(result[:3], result[3:], *self._mount_back, data.site_xpos[self._site], rotation)
         return result
 
     def jacobian(self, joints: FloatArray) -> FloatArray:
@@ -129,9 +129,9 @@ class ArmKinematics:
         self._here.update(joints)
         result = np.zeros((6, self.model.nv))
         mujoco.mj_jacSite(self.model, self._here.data, result[:3], result[3:], self._site)
-        turn = np.zeros(9)
-        mujoco.mju_quat2Mat(turn, self._mount_back[1])
-        rotation = turn.reshape(3, 3)
+        rotation = np.zeros(9)
+        mujoco.mju_quat2Mat(rotation, self._mount_back[1])
+        rotation = rotation.reshape(3, 3)
         return np.concatenate([rotation @ result[:3], rotation @ result[3:]])
 
     def _aim(self, pose: FloatArray) -> None:
@@ -161,7 +161,7 @@ class ArmKinematics:
         joints = start.copy()
         best: Found | None = None
         errors: list[float] = []
-        goal, turn, back = np.zeros(7), np.zeros(4), np.zeros(3)
+        goal, rotation, back = np.zeros(7), np.zeros(4), np.zeros(3)
         mujoco.mju_mulPose(goal[:3], goal[3:], *self._mount_pose, pose[:3], pose[3:])
         nearest = self.home if near is None else near
         model, data, count = self.model, self._here.data, len(joints)
@@ -171,9 +171,9 @@ class ArmKinematics:
             mujoco.mj_kinematics(model, data)
             mujoco.mj_comPos(model, data)
             mujoco.mj_jacSite(model, data, jacobian[:3], jacobian[3:], self._site)
-            mujoco.mju_mat2Quat(turn, data.site_xmat[self._site])
+            mujoco.mju_mat2Quat(rotation, data.site_xmat[self._site])
             # The rotation that is left, turned into the world's axes like the Jacobian's.
-            mujoco.mju_subQuat(back, goal[3:], turn)
+            mujoco.mju_subQuat(back, goal[3:], rotation)
             error[:3] = goal[:3] - data.site_xpos[self._site]
             error[3:] = data.site_xmat[self._site].reshape(3, 3) @ back
             if any_yaw:

@@ -65,9 +65,9 @@ def robot_things(
     made: dict[str | None, list[Thing]] = {None: [robot_thing]}
     for arm in robot.arms:
         palm = read.model.body(arm.gripper.palm).id
-        turn, place = quaternion(data.xquat[palm]), triple(data.xpos[palm])
-        place = _sum(place, triple(rotated(turn, arm.gripper.tool)))
-        position, orientation = _placed(whole, place, product(turn, arm.gripper.tool_orientation))
+        rotation, place = quaternion(data.xquat[palm]), triple(data.xpos[palm])
+        place = _sum(place, triple(rotated(rotation, arm.gripper.tool)))
+        position, orientation = _placed(whole, place, product(rotation, arm.gripper.tool_orientation))
         found = gripper_thing(arm.name)
         limits = {
             "opening": openings[arm.name],

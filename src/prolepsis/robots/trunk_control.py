@@ -61,7 +61,7 @@ class Trunk:
 
     def sense(self) -> RobotSense:
         """Return what the robot knows of these joints."""
-        turn = self._data.xmat[self._facing]
+        rotation = self._data.xmat[self._facing]
         neck = self._data.xanchor[self._neck] if self._neck >= 0 else self._data.xpos[self._facing]
         x, y, z = (float(value) for value in neck)
         return RobotSense(
@@ -72,7 +72,7 @@ class Trunk:
             base=self._base,
             head=self._head,
             neck=(x, y, z),
-            yaw=float(np.arctan2(turn[3], turn[0])),
+            yaw=float(np.arctan2(rotation[3], rotation[0])),
         )
 
 

@@ -68,7 +68,7 @@ class Running(Protocol):
     """Index of the thing that each MuJoCo body is, -1 for none, shape (nbody,)."""
     particles: ParticleState | None
     """All particles, if there are any."""
-    bonds: set[tuple[int, int]]
+    joints: set[tuple[int, int]]
     """What sticks to what now: indices of the holding and the held thing."""
 
     @property

@@ -25,7 +25,7 @@ MOST_PRESSED = 2.0
 
 
 @dataclass(kw_only=True, slots=True)
-class Hold:
+class AdhesiveJoint:
     """One thing that sticks to another."""
 
     holder: int
@@ -61,11 +61,11 @@ class Adhesion(Controller):
 
     def __init__(self) -> None:
         """Begin with nothing that sticks."""
-        self.holds: list[Hold] = []
-        self._joined: list[Hold] = []
+        self.holds: list[AdhesiveJoint] = []
+        self._joined: list[AdhesiveJoint] = []
         self._numbers: list[int] = []
 
-    def stick(self, state: Running, holds: Sequence[Hold]) -> None:
+    def stick(self, state: Running, holds: Sequence[AdhesiveJoint]) -> None:
         """Let things stick together where they are now."""
         if holds:
             self.holds += holds
@@ -107,12 +107,12 @@ class Adhesion(Controller):
                 self.holds = [kept for kept in self.holds if kept is not hold]
         self._report(state)
 
-    def _pressed(self, state: Running, hold: Hold) -> float:
+    def _pressed(self, state: Running, hold: AdhesiveJoint) -> float:
         """Return the force with which contact presses the two bodies together [N]."""
         bodies = {int(state.model.body(self._carrier(state, thing)).id) for thing in (hold.holder, hold.held)}
         return sum(force for _, a, b, force in state.normal_forces() if {a, b} == bodies)
 
-    def _renew(self, state: Running, hold: Hold) -> None:
+    def _renew(self, state: Running, hold: AdhesiveJoint) -> None:
         """Let a hold be where the two things are now, without strain."""
         hold.place_on_holder = self._seen_from_holder(state, hold)
         number = next(k for k, joined in enumerate(self._joined) if joined is hold)
@@ -137,9 +137,9 @@ class Adhesion(Controller):
     def _report(self, state: Running) -> None:
         """Tell the log what sticks to what."""
         pairs = {(int(state.carrier[hold.holder]), int(state.carrier[hold.held])) for hold in self.holds}
-        state.bonds = {(holder, held) for holder, held in pairs if holder != held}
+        state.joints = {(holder, held) for holder, held in pairs if holder != held}
 
-    def _places(self, state: Running, hold: Hold) -> tuple[FloatArray, FloatArray]:
+    def _places(self, state: Running, hold: AdhesiveJoint) -> tuple[FloatArray, FloatArray]:
         """Return the point of a hold in the frames of the two bodies [m]."""
         assert hold.place_on_holder is not None
         first, second = state.offsets[hold.holder], state.offsets[hold.held]
@@ -154,7 +154,7 @@ class Adhesion(Controller):
     def _turn(self, state: Running, thing: int) -> FloatArray:
         return state.data.body(self._carrier(state, thing)).xmat.reshape(3, 3) @ matrix(state.offsets[thing, 3:])
 
-    def _seen_from_holder(self, state: Running, hold: Hold) -> FloatArray:
+    def _seen_from_holder(self, state: Running, hold: AdhesiveJoint) -> FloatArray:
         things = state.scene.things
         held, holder = state.pose(things[hold.held].name), state.pose(things[hold.holder].name)
         world = held[:3] + matrix(held[3:]) @ hold.place

@@ -16,7 +16,7 @@ import numpy as np
 
 from prolepsis.geometry.rotations import matrix
 from prolepsis.geometry.shape import FloatArray
-from prolepsis.matter.films.adhesion import Adhesion, Hold
+from prolepsis.matter.films.adhesion import Adhesion, AdhesiveJoint
 from prolepsis.scene.parts import Kernel, Shard
 from prolepsis.scene.running import Running
 
@@ -62,9 +62,9 @@ class Sticking(Adhesion):
                 return
         super().act(state)
 
-    def _opened(self, state: Running) -> list[Hold]:
+    def _opened(self, state: Running) -> list[AdhesiveJoint]:
         """Return what holds the pieces of shells that have just opened to their kernels."""
-        found: list[Hold] = []
+        found: list[AdhesiveJoint] = []
         for kernel in [k for k in self._kernels if state.carrier[k] == k]:
             known, thing = self._kernels.pop(kernel), self._things[kernel]
             for piece, shard in sorted(self._shards.items()):
@@ -75,7 +75,7 @@ class Sticking(Adhesion):
                 out = (np.array(part.position) - np.array(thing.position)) @ matrix(np.array(thing.orientation))
                 out = out / np.asarray(thing.shape.geoms[0].size) ** 2
                 found.append(
-                    Hold(
+                    AdhesiveJoint(
                         holder=kernel,
                         held=piece,
                         place=np.zeros(3),
@@ -85,11 +85,11 @@ class Sticking(Adhesion):
                 )
         return found
 
-    def _wetted(self, state: Running) -> list[Hold]:
+    def _wetted(self, state: Running) -> list[AdhesiveJoint]:
         """Return what holds wet pieces to what they have touched at two looks."""
         known = {(hold.holder, hold.held) for hold in self.holds}
         before, self._candidates = self._candidates, {}
-        found: list[Hold] = []
+        found: list[AdhesiveJoint] = []
         for (holder, piece), (point, out) in self._touching(state).items():
             if (holder, piece) in known or not state.attribute(self._things[piece].name, "wet"):
                 continue
@@ -118,7 +118,7 @@ class Sticking(Adhesion):
                     found[other, piece] = (contact.pos[row].copy(), out.copy())
         return found
 
-    def _hold(self, state: Running, holder: int, piece: int, point: FloatArray, out: FloatArray) -> list[Hold]:
+    def _hold(self, state: Running, holder: int, piece: int, point: FloatArray, out: FloatArray) -> list[AdhesiveJoint]:
         particles = state.particles
         assert particles is not None
         free = np.flatnonzero(particles.free)
@@ -134,7 +134,7 @@ class Sticking(Adhesion):
         strength = 4 * math.pi * liquid["surfaceTension"] * shard.radius * math.cos(liquid["contactAngle"])
         if strength <= 0:
             return []
-        hold = Hold(
+        hold = AdhesiveJoint(
             holder=holder,
             held=piece,
             place=(point - pose[:3]) @ matrix(pose[3:]),

@@ -12,7 +12,7 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.matter.liquids.neighbours import Neighbours
-from prolepsis.matter.liquids.walls import REST_DISTANCE, Contacts
+from prolepsis.matter.liquids.walls import REST_DISTANCE, WallContacts
 from prolepsis.matter.liquids.yielding import along, give_way, softness
 from prolepsis.system.kernels import njit
 
@@ -31,7 +31,7 @@ def solve_pressure(
     neighbours: Neighbours,
     steepness: FloatArray,
     density: FloatArray,
-    contacts: Contacts,
+    contacts: WallContacts,
     impulse: FloatArray,
     push: FloatArray,
     pressed: FloatArray,
@@ -176,7 +176,7 @@ def apply_impulses(
     inverse_mass: FloatArray,
     neighbours: Neighbours,
     steepness: FloatArray,
-    contacts: Contacts,
+    contacts: WallContacts,
     spacing: float,
     push: FloatArray,
 ) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from prolepsis.geometry.shape import FloatArray
-from prolepsis.matter.liquids.walls import Contacts, read_table
+from prolepsis.matter.liquids.walls import WallContacts, read_table
 from prolepsis.system.kernels import njit
 
 TOUCHING = 0.8
@@ -16,7 +16,7 @@ ALONE, LAYER = 0.318, 0.70
 
 @njit(cache=True)
 def add_adhesion(
-    contacts: Contacts,
+    contacts: WallContacts,
     strength: FloatArray,
     edges: FloatArray,
     wetting: FloatArray,
@@ -44,7 +44,7 @@ def add_adhesion(
 
 @njit(cache=True, inline="always")
 def _pull(
-    contacts: Contacts,
+    contacts: WallContacts,
     i: int,
     f: int,
     strength: FloatArray,
@@ -62,7 +62,7 @@ def _pull(
 
 @njit(cache=True)
 def pin_edges(
-    contacts: Contacts,
+    contacts: WallContacts,
     velocity: FloatArray,
     mass: FloatArray,
     tension: FloatArray,
@@ -121,7 +121,7 @@ def pin_edges(
 
 @njit(cache=True)
 def add_drag(
-    contacts: Contacts,
+    contacts: WallContacts,
     velocity: FloatArray,
     slip: FloatArray,
     yielded: FloatArray,
@@ -159,7 +159,7 @@ def add_drag(
 
 @njit(cache=True)
 def add_pressure(
-    contacts: Contacts,
+    contacts: WallContacts,
     impulse: FloatArray,
     push: FloatArray,
     strength: FloatArray,

@@ -7,13 +7,13 @@ import math
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.matter.liquids.kernel import TABLE_SIZE, edge
 from prolepsis.matter.liquids.neighbours import Neighbours
-from prolepsis.matter.liquids.walls import Contacts
+from prolepsis.matter.liquids.walls import WallContacts
 from prolepsis.system.kernels import njit
 
 
 @njit(cache=True)
 def complete_density(
-    contacts: Contacts,
+    contacts: WallContacts,
     density: FloatArray,
     steepness: FloatArray,
     air_table: FloatArray,

@@ -12,7 +12,7 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.matter.liquids.neighbours import Neighbours
-from prolepsis.matter.liquids.walls import Contacts, read_table
+from prolepsis.matter.liquids.walls import WallContacts, read_table
 from prolepsis.system.kernels import njit
 
 GENTLE = 0.1
@@ -26,7 +26,7 @@ def solve_viscosity(
     mass: FloatArray,
     viscosity: FloatArray,
     neighbours: Neighbours,
-    contacts: Contacts,
+    contacts: WallContacts,
     drag_table: FloatArray,
     spacing: float,
     dt: float,
@@ -201,7 +201,7 @@ def _multiply(
     mass: FloatArray,
     inertia: FloatArray,
     neighbours: Neighbours,
-    contacts: Contacts,
+    contacts: WallContacts,
     slip: FloatArray,
     product: FloatArray,
     body_product: FloatArray,

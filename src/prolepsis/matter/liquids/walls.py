@@ -41,7 +41,7 @@ class Bodies(NamedTuple):
     """Mass [kg], then the rows of the inertia in the world [kg m^2]; zeros for the same, shape (B, 10)."""
 
 
-class Contacts(NamedTuple):
+class WallContacts(NamedTuple):
     """What n particles see of the walls, in up to SEEN faces each."""
 
     seen: IntArray
@@ -64,9 +64,9 @@ class Contacts(NamedTuple):
     """The walls' share of the kernel sum [1], shape (n,)."""
 
 
-def empty_contacts(n: int) -> Contacts:
+def empty_contacts(n: int) -> WallContacts:
     """Return contacts of n particles that see nothing."""
-    return Contacts(
+    return WallContacts(
         seen=np.zeros(n, dtype=np.int64),
         body=np.zeros((n, SEEN), dtype=np.int64),
         distance=np.zeros((n, SEEN)),
@@ -120,7 +120,7 @@ def find_walls(
     bodies: Bodies,
     share_table: FloatArray,
     slope_table: FloatArray,
-    contacts: Contacts,
+    contacts: WallContacts,
     side: FloatArray,
 ) -> None:
     """Fill in what each particle sees of the walls, and in ``side`` the nearest face (normal, distance in spacings)."""
@@ -212,7 +212,7 @@ def find_walls(
 def keep_outside(
     position: FloatArray,
     velocity: FloatArray,
-    before: Contacts,
+    before: WallContacts,
     spacing: float,
     solids: Solids,
     bodies: Bodies,
@@ -300,7 +300,7 @@ def keep_outside(
 
 
 @njit(cache=True, inline="always")
-def _ahead(before: Contacts, i: int, f: int, velocity: FloatArray, dt: float) -> float:
+def _ahead(before: WallContacts, i: int, f: int, velocity: FloatArray, dt: float) -> float:
     """Return how far a particle will be from a face that it sees now [m]."""
     ahead = before.distance[i, f]
     for c in range(3):

@@ -100,7 +100,7 @@ class Dent:
 
 
 @dataclass(kw_only=True, slots=True)
-class Touch:
+class Pressed:
     """Contacts with one body."""
 
     force: float = 0.0
@@ -187,21 +187,21 @@ class ShellDents:
             totals[other] = totals.get(other, 0.0) + force
         return totals
 
-    def _approach(self, state: Running, other: str, touch: Touch) -> float:
+    def _approach(self, state: Running, other: str, touch: Pressed) -> float:
         """Return by how much the shell and another body come closer within a substep [m]."""
         if touch.point is None or touch.normal is None:
             return 0.0
         speeds = [state.velocity_at(name, touch.point) for name in (self._thing, other)]
         return abs(float((speeds[1] - speeds[0]) @ touch.normal)) * float(state.model.opt.timestep)
 
-    def _touching(self, state: Running) -> dict[str, Touch]:
+    def _touching(self, state: Running) -> dict[str, Pressed]:
         data = state.data
-        found: dict[str, Touch] = {}
+        found: dict[str, Pressed] = {}
         geom = int(state.model.geom(self._geom).id)
         for contact, (pair, row) in enumerate(zip(state.touching(), data.contact.efc_address.tolist(), strict=True)):
             if geom not in pair:
                 continue
-            touch = found.setdefault(self._other(state, contact), Touch())
+            touch = found.setdefault(self._other(state, contact), Pressed())
             force = float(data.efc_force[row]) if row >= 0 else 0.0
             touch.force += force
             touch.distance = min(touch.distance, float(data.contact.dist[contact]))

@@ -21,7 +21,7 @@ from prolepsis.terms.errors import KnowledgeError
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Panel:
+class PanelShape:
     """One part of a wall, in the vessel's frame."""
 
     geoms: tuple[Geom, ...]
@@ -44,7 +44,7 @@ class Resistance:
     """Moment over angle until then [N m/rad]."""
 
 
-def panels(shape: Shape, q: Mapping[str, float]) -> tuple[Panel, ...]:
+def panels(shape: Shape, q: Mapping[str, float]) -> tuple[PanelShape, ...]:
     """Return the panels of a bowl's wall; the bowl's first solid is its foot.
 
     Raises:
@@ -56,12 +56,12 @@ def panels(shape: Shape, q: Mapping[str, float]) -> tuple[Panel, ...]:
         raise KnowledgeError(f"panelCount {count}: allowed: 4, 5, 10 or 20")
     each = SEGMENTS // count
     radius, height = _foot(q)
-    made: list[Panel] = []
+    made: list[PanelShape] = []
     for k in range(count):
         middle = math.tau * (k + 0.5) / count
         c, s = math.cos(middle), math.sin(middle)
         geoms = tuple(geom for j, geom in enumerate(shape.geoms[1:]) if j % SEGMENTS // each == k)
-        made.append(Panel(geoms=geoms, hinge=(radius * c, radius * s, height), axis=(-s, c, 0.0)))
+        made.append(PanelShape(geoms=geoms, hinge=(radius * c, radius * s, height), axis=(-s, c, 0.0)))
     return tuple(made)
 
 

@@ -60,13 +60,13 @@ def travel(hand: Thing, sense: Sense, displacement: Triple, acceleration: float,
         acceleration: Greatest acceleration [m/s^2].
         speed: Greatest speed [m/s].
     """
-    start, rotation = sense.hands[hand.name].offset, sense.hands[hand.name].turn
+    start, rotation = sense.hands[hand.name].offset, sense.hands[hand.name].rotation
     if sense.hands[hand.name].arm is not None:
         steps = np.array([step for step, _ in line(displacement, acceleration, speed)])
         return (yield from follow(hand, sense, steps + start, np.tile(rotation, (len(steps), 1)), loose=True))
     for step, velocity in line(displacement, acceleration, speed):
         offset = (start[0] + step[0], start[1] + step[1], start[2] + step[2])
-        sense = yield (HandTarget(hand=hand.name, offset=offset, velocity=velocity, turn=rotation),)
+        sense = yield (HandTarget(hand=hand.name, offset=offset, velocity=velocity, rotation=rotation),)
     return sense
 
 

@@ -214,7 +214,7 @@ def _pull(
             sense = ended.value
             break
     here = sense.hands[other.name]
-    sense = yield (HandTarget(hand=other.name, offset=here.offset, turn=here.turn),)
+    sense = yield (HandTarget(hand=other.name, offset=here.offset, rotation=here.rotation),)
     sense = yield from open_to(other, pinch.opening, sense)
     back = triple(np.add(offset, away) - here.offset)
     return (yield from travel(other, sense, back, 1.0, APPROACH_SPEED))

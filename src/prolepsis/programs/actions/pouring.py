@@ -84,7 +84,7 @@ def pour(
     """Tilt the held source over the target, its lip at a height over the target's top, offset past its middle."""
     state = sense.hands[hand.name]
     reference = reference_of(scene, hand)
-    ahead = turned(reference, (state.turn[0], 0.0, 0.0))
+    ahead = turned(reference, (state.rotation[0], 0.0, 0.0))
     level = matrix(ahead)
     left, here = level[:, 1], np.asarray(state.position)
     top = _points(sense, [target])

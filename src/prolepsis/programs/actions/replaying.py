@@ -121,7 +121,7 @@ def replay(scene: Scene, sense: Sense, *, hand: Thing, file: Path) -> Behaviour:
     rows = recording.displacements
     offsets = np.asarray(here.offset) + rows if rows is not None else _positions(recording) - np.asarray(hand.position)
     rotations = _rotations(recording, reference, here, ticks)
-    start, first = np.array([*here.offset, *here.turn]), np.array([*offsets[0], *rotations[0]])
+    start, first = np.array([*here.offset, *here.rotation]), np.array([*offsets[0], *rotations[0]])
     course = np.concatenate([_start(start, first), np.hstack([_smooth(recording.time, offsets)(ticks), rotations[1:]])])
     rates = np.diff(course, axis=0, prepend=start[None]) / TICK
     grips = _grips(recording, hand, len(course) - len(ticks))
@@ -131,12 +131,12 @@ def replay(scene: Scene, sense: Sense, *, hand: Thing, file: Path) -> Behaviour:
             hand=hand.name,
             offset=triple(pose[:3]),
             velocity=triple(rate[:3]),
-            turn=triple(pose[3:]),
-            spin=triple(rate[3:]),
+            rotation=triple(pose[3:]),
+            angular_velocity=triple(rate[3:]),
         )
         sense = yield (target, *grips.get(k, ()))
         behind = max(behind, _refuse_behind(hand, sense, (k - len(course) + len(ticks)) * TICK))
-    end = HandTarget(hand=hand.name, offset=triple(course[-1, :3]), turn=triple(course[-1, 3:]))
+    end = HandTarget(hand=hand.name, offset=triple(course[-1, :3]), rotation=triple(course[-1, 3:]))
     return (yield (end, *([Note(evidence={"behind": behind})] if here.arm is not None else ())))
 
 
@@ -156,7 +156,7 @@ def _replay_joints(hand: Thing, sense: Sense, recording: Recording, ticks: Float
         offset, rotation = arm.place(joints)
         speeds = tuple(map(float, rate))
         target = ArmTarget(
-            hand=hand.name, joints=tuple(map(float, joints)), speeds=speeds, offset=offset, turn=rotation
+            hand=hand.name, joints=tuple(map(float, joints)), speeds=speeds, offset=offset, rotation=rotation
         )
         sense = yield (target, *grips.get(k, ()))
         _refuse_behind(hand, sense, (k - len(start)) * TICK)
@@ -179,11 +179,14 @@ def _smooth(time: FloatArray, rows: FloatArray) -> Any:
 def _rotations(recording: Recording, reference: Quaternion, here: HandSense, ticks: FloatArray) -> FloatArray:
     """Return how the hand is turned at the first row and at each tick [rad], shape (n + 1, 3), without jumps."""
     if recording.orientations is None:
-        return np.tile(np.asarray(here.turn), (len(ticks) + 1, 1))
+        return np.tile(np.asarray(here.rotation), (len(ticks) + 1, 1))
     # Between rows some hundredths of a radian apart, the straight line between quaternions is the arc.
     between = _smooth(recording.time, recording.orientations)(np.concatenate([[0.0], ticks]))
     units = between / np.linalg.norm(between, axis=1)[:, None]
-    rotations = [here.turn, *(angles_of(reference, (float(w), float(x), float(y), float(z))) for w, x, y, z in units)]
+    rotations = [
+        here.rotation,
+        *(angles_of(reference, (float(w), float(x), float(y), float(z))) for w, x, y, z in units),
+    ]
     return np.unwrap(np.array(rotations), axis=0)[1:]
 
 

@@ -76,7 +76,10 @@ def hit(
             yield from travel(hand, sense, (0.0, 0.0, BACK), 2.0, BACK_SPEED)
             raise ActionFailedError("missed", f"{object.name} did not meet {against.name}") from None
     here = sense.hands[hand.name]
-    sense = yield (Note(evidence={"speed": met}), HandTarget(hand=hand.name, offset=here.offset, turn=here.turn))
+    sense = yield (
+        Note(evidence={"speed": met}),
+        HandTarget(hand=hand.name, offset=here.offset, rotation=here.rotation),
+    )
     sense = yield from stay(0.05, sense)
     return (yield from travel(hand, sense, (0.0, 0.0, BACK), 2.0, BACK_SPEED))
 
@@ -160,6 +163,6 @@ def push_down(hand: Thing, sense: Sense, force: float, duration: float) -> Behav
             sinking = APPROACH_SPEED
         depth += sinking * TICK
         position: Triple = (start.offset[0], start.offset[1], start.offset[2] - depth)
-        target = HandTarget(hand=hand.name, offset=position, velocity=(0.0, 0.0, -sinking), turn=start.turn)
+        target = HandTarget(hand=hand.name, offset=position, velocity=(0.0, 0.0, -sinking), rotation=start.rotation)
         sense = yield (target, Note(evidence={"force": greatest}))
     return sense

@@ -22,7 +22,7 @@ def tilt(scene: Scene, sense: Sense, *, hand: Thing, angle: float, rate: float) 
     """Turn the hand about its forward axis to an angle, to its right if positive; 0 is upright again."""
     del scene
     state = sense.hands[hand.name]
-    yaw, pitch, start = state.turn
+    yaw, pitch, start = state.rotation
     angles = course(start, angle, rate)
     rotations = np.stack([np.full(len(angles), yaw), np.full(len(angles), pitch), angles], axis=1)
     return (yield from follow(hand, sense, np.tile(state.offset, (len(angles), 1)), rotations))

@@ -54,7 +54,7 @@ def wipe(
             # The hand is a spring: commanded deeper, it presses more.
             depth += (force - pressed) / start.stiffness * RATE * TICK
             offset = (here[0] + step[0], here[1] + step[1], here[2] + step[2] - depth)
-            sense = yield (HandTarget(hand=hand.name, offset=offset, velocity=velocity, turn=start.turn),)
+            sense = yield (HandTarget(hand=hand.name, offset=offset, velocity=velocity, rotation=start.rotation),)
         if stroke:
             here = (here[0] + along[0], here[1] + along[1], here[2] + along[2])
     return (yield from travel(hand, sense, (0.0, 0.0, depth), ACCELERATION, LIFT_SPEED))

@@ -151,8 +151,8 @@ def tool_pose(model: Any, data: Any, effector: Effector) -> tuple[FloatArray, Fl
     palm = data.body(effector.palm)
     tool = np.array([*effector.tool, *effector.tool_orientation])
     pose = compose_pose(np.array([*palm.xpos, *palm.xquat]), tool)
-    turn = quaternion(pose[3:])
-    return pose[:3], rotated(turn, (1.0, 0.0, 0.0)), rotated(turn, (0.0, 1.0, 0.0))
+    rotation = quaternion(pose[3:])
+    return pose[:3], rotated(rotation, (1.0, 0.0, 0.0)), rotated(rotation, (0.0, 1.0, 0.0))
 
 
 def _lengths(model: Any, effector: Effector, where: str) -> FloatArray:
