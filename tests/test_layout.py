@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Collection
 from pathlib import Path
 
 import pytest
@@ -62,3 +63,34 @@ def test_every_file_says_what_it_is_and_is_short(folder: str) -> None:
         said = ast.get_docstring(ast.parse(text))
         assert said or not text.strip(), f"{file}: no first sentence"
         assert len(text.splitlines()) <= LONGEST or folder != "src", f"{file}: longer than {LONGEST} lines"
+
+
+def test_tests_mirror_the_rooms() -> None:
+    rooms = {folder.name for folder in SOURCE.iterdir() if folder.is_dir()}
+    others = {"contract", "errors", "laws", "prolog", "stories"}
+    tested = {file.relative_to(ROOT / "tests").parts[0] for file in (ROOT / "tests").rglob("*/*.py")}
+    assert tested <= rooms | others
+
+
+def test_no_files_import_each_other_in_a_circle() -> None:
+    files = {module_name(file): file for file in SOURCE.rglob("*.py")}
+    needs = {name: imported(file, files.keys()) - {name} for name, file in files.items()}
+    left = set(needs)
+    while free := {name for name in left if not needs[name] & left}:
+        left -= free
+    assert not left, "a circle is among these, or leads into one"
+
+
+def module_name(file: Path) -> str:
+    return ".".join(file.relative_to(SOURCE.parent).with_suffix("").parts).removesuffix(".__init__")
+
+
+def imported(file: Path, modules: Collection[str]) -> set[str]:
+    """Return the modules that a file imports when it is imported itself, not those of a call or for types only."""
+    found: set[str] = set()
+    for node in ast.parse(file.read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.ImportFrom) and node.module is not None:
+            for alias in node.names:
+                within = f"{node.module}.{alias.name}"
+                found.add(within if within in modules else node.module)
+    return found & {*modules}

@@ -14,7 +14,7 @@ from prolepsis.campaigns.outcome import Grasp
 from prolepsis.cli import main
 from prolepsis.terms.errors import InputError
 
-EXAMPLES = Path(__file__).parent.parent / "examples"
+EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from tests.hostile_goals import EFFECTS, by_hand, crossed
-from tests.test_session import timeline
+from tests.logic.test_session import timeline
 
 from prolepsis.logic.confinement import Walls
 from prolepsis.logic.process import ProcessLost, PrologProcess

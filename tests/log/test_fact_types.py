@@ -14,7 +14,7 @@ from prolepsis.log.timeline import Fact
 from prolepsis.programs import ACTIONS
 from prolepsis.terms.terms import Term, parse_term
 
-DIGESTS = json.loads((Path(__file__).parents[1] / "tools" / "digests.json").read_text())["examples"]
+DIGESTS = json.loads((Path(__file__).parents[2] / "tools" / "digests.json").read_text())["examples"]
 
 
 def on_timelines() -> set[tuple[str, str, int]]:

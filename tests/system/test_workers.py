@@ -18,7 +18,7 @@ from prolepsis.campaigns.campaign import Outcomes, Row, sweep
 from prolepsis.commands import sweep as command
 from prolepsis.system.workers import Lost, carry_out
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 STEP = 0.05
 """Between two looks [s]."""
 

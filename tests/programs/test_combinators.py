@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from tests.physics.test_programs import FakeHand, actions_of, carried_out
+from tests.programs.test_programs import FakeHand, actions_of, carried_out
 from tests.scenes import EGG_IN_HAND, scene
 
 from prolepsis.programs import read_program

@@ -15,7 +15,7 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
-from tests.test_session import timeline
+from tests.logic.test_session import timeline
 
 from prolepsis.cli import main
 from prolepsis.log.timeline import Timeline
@@ -150,7 +150,7 @@ def test_the_command_line_can_require_it(
 
 
 def test_a_lower_memory_limit_of_the_shell_stays() -> None:
-    code = "from tests.test_session import timeline; print(timeline().ask('holds(broken(X), _)'))"
+    code = "from tests.logic.test_session import timeline; print(timeline().ask('holds(broken(X), _)'))"
 
     def limit() -> None:
         resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
@@ -248,7 +248,7 @@ def test_a_forked_child_asks_for_itself(way: str) -> None:
     code = f"""
 import os, sys, threading, multiprocessing
 from prolepsis.log.timeline import Timeline
-from tests.test_session import timeline
+from tests.logic.test_session import timeline
 from prolepsis.logic.session import shared_session
 egg = timeline()
 egg.ask("true")

@@ -18,7 +18,7 @@ from prolepsis.terms.terms import format_value
 
 INTERNAL = {"matching", "args_of", "interval", "relation_names"}
 """Predicates that the modules share, and that a goal may not call."""
-PAGE = (Path(__file__).parents[1] / "docs" / "queries.md").read_text()
+PAGE = (Path(__file__).parents[2] / "docs" / "queries.md").read_text()
 
 
 @pytest.fixture(scope="module")

@@ -15,7 +15,7 @@ from prolepsis.fluents.kinematics import BALANCE_WINDOW
 from prolepsis.fluents.support import SUPPORT_GAP, SUPPORT_LEAST
 from prolepsis.logic.process import PROLOG_FILES
 
-FILES = sorted((Path(__file__).parent / "prolog").glob("*.plt"))
+FILES = sorted((Path(__file__).parents[1] / "prolog").glob("*.plt"))
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)

@@ -12,7 +12,7 @@ from prolepsis.projection import Projection, project
 from prolepsis.scenario.scenario import Scenario
 from prolepsis.terms.errors import UnknownNameError
 
-EXAMPLES = Path(__file__).parent.parent / "examples"
+EXAMPLES = Path(__file__).parents[2] / "examples"
 SHORT = 'situation = "dropped_egg.ttl"\nplan = "wait(0.02)"\nduration = 0.03\nseed = 3\n'
 
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.synthetic import DT, LAND, TICKS, egg_drop_log
 
 from prolepsis.campaigns.campaign import Outcomes, Row
 from prolepsis.campaigns.outcome import Grasp, GraspOutcome, judge_grasp
@@ -13,7 +14,6 @@ from prolepsis.log.log import Log
 from prolepsis.log.things import Thing
 from prolepsis.log.timeline import Fact, Timeline, make_timeline
 from prolepsis.terms.errors import InputError
-from synthetic import DT, LAND, TICKS, egg_drop_log
 
 
 def fact(kind: str, type: str, *args: str | float, start: float, end: float) -> Fact:

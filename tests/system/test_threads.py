@@ -11,7 +11,7 @@ import pytest
 
 from prolepsis.system.threads import one_thread
 
-EXAMPLES = Path(__file__).parent.parent / "examples"
+EXAMPLES = Path(__file__).parents[2] / "examples"
 PROJECT = """
 import hashlib, sys
 if sys.argv[2] == "numpy first":

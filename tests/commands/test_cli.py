@@ -12,15 +12,15 @@ import time
 from pathlib import Path
 
 import pytest
+from tests.synthetic import egg_drop_log
 
 from prolepsis.cli import main
 from prolepsis.fluents import recognize
 from prolepsis.log.files import write_log_files
 from prolepsis.log.saved import write_timeline_files
 from prolepsis.log.sealed import write_sealed
-from synthetic import egg_drop_log
 
-EXAMPLES = Path(__file__).parent.parent / "examples"
+EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
 @pytest.fixture(scope="module")

@@ -11,13 +11,13 @@ from typing import Any, cast
 import numpy as np
 import pyarrow.parquet  # pyright: ignore[reportMissingTypeStubs]
 import pytest
+from tests.synthetic import egg_drop_log, particles, wet_log
 
 from prolepsis.log.files import read_log, write_log
 from prolepsis.log.log import FREE, Log
 from prolepsis.log.particle_tables import STEP, rounded
 from prolepsis.log.sealed import MANIFEST, write_sealed
 from prolepsis.terms.errors import InputError, LogError
-from synthetic import egg_drop_log, particles, wet_log
 
 FILES = (
     *(MANIFEST, "log.json", "ticks.parquet", "poses.parquet", "contacts.parquet", "joints.parquet"),

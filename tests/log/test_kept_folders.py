@@ -217,7 +217,7 @@ def test_a_disk_that_fills_while_saving_leaves_the_old_one(tmp_path: Path) -> No
 def test_a_projection_that_is_ended_at_any_moment_leaves_the_old_or_the_new(
     tmp_path: Path, how: signal.Signals
 ) -> None:
-    examples = Path(__file__).parent.parent / "examples"
+    examples = Path(__file__).parents[2] / "examples"
     shutil.copy(examples / "dropped_egg.ttl", tmp_path)
     texts = {"old": "wait(0.01)", "new": "wait(0.02)"}
     for name, plan in texts.items():
