@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from tests.scenes import run
 
+from prolepsis.geometry.rotations import matrix
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.log.log import Log
-from prolepsis.programs.turning import matrix
 
 GRIP = 40.0
 """Force of a pad [N]: friction .3 carries a cup of .29 kg at it up to 80 m/s^2."""

@@ -82,9 +82,15 @@ def from_axes(axes: FloatArray) -> Quaternion:
     return (w / length, x / length, y / length, z / length)
 
 
-def matrix(quaternion: FloatArray) -> FloatArray:
+def rolled(angle: float) -> FloatArray:
+    """Return the rotation matrix of a roll about x by ``angle`` [rad], shape (3, 3)."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+
+
+def matrix(quaternion: FloatArray | Quaternion) -> FloatArray:
     """Return the rotation matrix of a quaternion, which need not be of unit length, shape (3, 3)."""
-    w, x, y, z = quaternion / np.linalg.norm(quaternion)
+    w, x, y, z = np.asarray(quaternion) / np.linalg.norm(quaternion)
     return np.array(
         [
             [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],

@@ -7,7 +7,7 @@ import numpy as np
 from prolepsis.log.things import Thing
 from prolepsis.programs.action import FORCE, HAND, HELD, ParameterSpec, action
 from prolepsis.programs.actions.motion import HEIGHT, SHORT, open_to, stay, within_workspace
-from prolepsis.programs.grasping import CLEARANCE, grasp_as_turned
+from prolepsis.programs.moving.grasping import CLEARANCE, grasp_as_turned
 from prolepsis.programs.nesting import nested
 from prolepsis.robots.commands import Behaviour, CloseGripper, Sense
 from prolepsis.scene.scene import Scene

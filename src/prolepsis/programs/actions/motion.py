@@ -9,8 +9,8 @@ import numpy as np
 from prolepsis.geometry.shape import FloatArray, Quaternion, Triple, triple
 from prolepsis.log.things import Thing
 from prolepsis.programs.action import HAND, ParameterSpec, action
-from prolepsis.programs.following import follow, go
-from prolepsis.programs.grasping import (
+from prolepsis.programs.moving.following import follow, go
+from prolepsis.programs.moving.grasping import (
     LEAST_MARGIN,
     MARGIN,
     STANDOFF,
@@ -20,7 +20,7 @@ from prolepsis.programs.grasping import (
     grasping_width,
     least_width,
 )
-from prolepsis.programs.profile import PEAK_ACCELERATION, PEAK_SPEED, least_jerk
+from prolepsis.programs.moving.profile import PEAK_ACCELERATION, PEAK_SPEED, least_jerk
 from prolepsis.robots.commands import ActionFailedError, Behaviour, HandTarget, OpenGripper, Sense, Way
 from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.scene.extent import extent_along

@@ -13,10 +13,10 @@ from prolepsis.log.things import Thing
 from prolepsis.programs.action import FORCE, HAND, HELD, ParameterSpec, action
 from prolepsis.programs.actions.gripping import close_from
 from prolepsis.programs.actions.motion import open_to, stay, travel
-from prolepsis.programs.following import go
-from prolepsis.programs.grasping import CLEARANCE
-from prolepsis.programs.holding import holding
-from prolepsis.programs.two_hands import OTHER, HandPose, HeldOut, check_two_arms, hold_out
+from prolepsis.programs.moving.following import go
+from prolepsis.programs.moving.grasping import CLEARANCE
+from prolepsis.programs.moving.holding import holding
+from prolepsis.programs.moving.two_hands import OTHER, HandPose, HeldOut, check_two_arms, hold_out
 from prolepsis.robots.commands import Behaviour, HandTarget, Note, Sense, Way, no_way
 from prolepsis.scene.extent import extent_along
 from prolepsis.scene.parts import Kernel, Shard

@@ -7,17 +7,17 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from prolepsis.geometry.rotations import angles_of, inverse, product, rotated, turned
+from prolepsis.geometry.rotations import angles_of, inverse, matrix, product, rolled, rotated, turned
 from prolepsis.geometry.shape import FloatArray, Quaternion
 from prolepsis.log.things import Thing
 from prolepsis.programs.action import HAND, ParameterSpec, action
 from prolepsis.programs.actions.motion import stay, travel_over
 from prolepsis.programs.actions.turning import RATE
-from prolepsis.programs.following import follow
-from prolepsis.programs.lip import Below, heights, lip_of
+from prolepsis.programs.moving.following import follow
+from prolepsis.programs.moving.lip import Below, heights, lip_of
+from prolepsis.programs.moving.outline import outline
+from prolepsis.programs.moving.profile import course
 from prolepsis.programs.nesting import as_event
-from prolepsis.programs.outline import outline
-from prolepsis.programs.turning import course, matrix, rolled
 from prolepsis.robots.commands import Behaviour, Sense
 from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.scene.scene import Scene, reference_of, robot_of_gripper

@@ -14,9 +14,8 @@ from prolepsis.log.things import Thing
 from prolepsis.programs.action import HAND, ParameterSpec, action
 from prolepsis.programs.actions.gripping import FASTEST, SLOWEST, SPEED_PER_FORCE
 from prolepsis.programs.actions.motion import ARRIVED, OPENING_SPEED
-from prolepsis.programs.profile import PEAK_SPEED, least_jerk, least_time
+from prolepsis.programs.moving.profile import PEAK_SPEED, least_jerk, least_time
 from prolepsis.programs.recording import Recording, read_recording
-from prolepsis.programs.turning import TICK
 from prolepsis.robots.commands import (
     ActionFailedError,
     ArmTarget,
@@ -32,6 +31,7 @@ from prolepsis.robots.commands import (
 from prolepsis.robots.hand import HAND as FREE_HAND
 from prolepsis.robots.model import robot_model, unit_of
 from prolepsis.scene.robot import Joint
+from prolepsis.scene.running import TICK
 from prolepsis.scene.scene import Scene, reference_of, robot_of_gripper
 from prolepsis.terms.errors import PlanError
 

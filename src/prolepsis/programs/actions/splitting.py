@@ -14,11 +14,11 @@ from prolepsis.programs.action import FORCE, HAND, HELD, ParameterSpec, action
 from prolepsis.programs.actions.gripping import close_from
 from prolepsis.programs.actions.motion import MARGIN, open_to, stay, travel
 from prolepsis.programs.combining import Maker, all_together
-from prolepsis.programs.following import follow, go
-from prolepsis.programs.grasping import CLEARANCE, STANDOFF, as_seen
-from prolepsis.programs.holding import holding
-from prolepsis.programs.profile import least_jerk
-from prolepsis.programs.two_hands import OTHER, SHORTS, HandPose, HeldOut, check_two_arms, hold_out
+from prolepsis.programs.moving.following import follow, go
+from prolepsis.programs.moving.grasping import CLEARANCE, STANDOFF, as_seen
+from prolepsis.programs.moving.holding import holding
+from prolepsis.programs.moving.profile import least_jerk
+from prolepsis.programs.moving.two_hands import OTHER, SHORTS, HandPose, HeldOut, check_two_arms, hold_out
 from prolepsis.robots.commands import Behaviour, Command, Sense, Way, no_way
 from prolepsis.scene.extent import extent_along, support
 from prolepsis.scene.scene import Scene, reference_of

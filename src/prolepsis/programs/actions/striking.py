@@ -10,12 +10,12 @@ from prolepsis.geometry.shape import FloatArray, Triple
 from prolepsis.log.things import Thing
 from prolepsis.programs.action import HAND, HELD, ParameterSpec, action
 from prolepsis.programs.actions.motion import stay, travel, travel_over
-from prolepsis.programs.following import follow
-from prolepsis.programs.grasping import as_seen
-from prolepsis.programs.holding import free_pose, move_held, spots
-from prolepsis.programs.turning import TICK
+from prolepsis.programs.moving.following import follow
+from prolepsis.programs.moving.grasping import as_seen
+from prolepsis.programs.moving.holding import free_pose, move_held, spots
 from prolepsis.robots.commands import ActionFailedError, Behaviour, HandTarget, Note, Sense
 from prolepsis.scene.extent import middle, support
+from prolepsis.scene.running import TICK
 from prolepsis.scene.scene import Scene, reference_of
 from prolepsis.terms.errors import PlanError
 

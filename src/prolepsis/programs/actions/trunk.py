@@ -9,7 +9,7 @@ import numpy as np
 
 from prolepsis.log.things import Thing
 from prolepsis.programs.action import OBJECT, ROBOT_NAME, ParameterSpec, action
-from prolepsis.programs.profile import least_jerk, least_time
+from prolepsis.programs.moving.profile import least_jerk, least_time
 from prolepsis.robots.commands import ActionFailedError, Behaviour, JointTarget, RobotSense, Sense
 from prolepsis.scene.scene import Scene
 from prolepsis.terms.errors import PlanError

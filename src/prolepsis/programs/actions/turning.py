@@ -8,8 +8,8 @@ import numpy as np
 
 from prolepsis.log.things import Thing
 from prolepsis.programs.action import HAND, ParameterSpec, action
-from prolepsis.programs.following import follow
-from prolepsis.programs.turning import course
+from prolepsis.programs.moving.following import follow
+from prolepsis.programs.moving.profile import course
 from prolepsis.robots.commands import Behaviour, Sense
 from prolepsis.scene.scene import Scene
 

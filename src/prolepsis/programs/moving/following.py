@@ -9,9 +9,9 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, Triple, triple
 from prolepsis.log.things import Thing
-from prolepsis.programs.profile import least_jerk, least_time
-from prolepsis.programs.turning import TICK
+from prolepsis.programs.moving.profile import least_jerk, least_time
 from prolepsis.robots.commands import ActionFailedError, ArmSense, ArmTarget, Behaviour, HandTarget, Sense, Way
+from prolepsis.scene.running import TICK
 
 KNOTS = 40
 """Ticks between two positions at which the joints of a given course are computed."""

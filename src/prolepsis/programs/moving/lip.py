@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
+from prolepsis.geometry.rotations import rolled
 from prolepsis.geometry.shape import FloatArray
-from prolepsis.programs.turning import rolled
 
 RIM = 1.0e-3
 """Points within this height of the topmost belong to the rim [m]."""

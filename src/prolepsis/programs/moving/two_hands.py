@@ -8,13 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from prolepsis.geometry.rotations import angles_of, from_axes
+from prolepsis.geometry.rotations import angles_of, from_axes, matrix
 from prolepsis.geometry.shape import FloatArray, Quaternion, Triple, triple
 from prolepsis.log.things import Thing
 from prolepsis.programs.action import ParameterSpec
-from prolepsis.programs.following import go
-from prolepsis.programs.grasping import longest_axis, yaw_of
-from prolepsis.programs.turning import matrix
+from prolepsis.programs.moving.following import go
+from prolepsis.programs.moving.grasping import longest_axis, yaw_of
 from prolepsis.robots.commands import Command, HandSense, Sense, Way, no_way
 from prolepsis.scene.extent import middle
 from prolepsis.scene.scene import Scene, robot_of_gripper

@@ -1,14 +1,18 @@
-"""Motion from rest to rest with the least jerk: how long it takes, and how far it has come at each tick."""
+"""Motion from rest to rest, with the least jerk or at a steady rate: how far it has come at each tick."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from prolepsis.geometry.shape import FloatArray
-from prolepsis.programs.turning import TICK
+from prolepsis.scene.running import TICK
 
 PEAK_SPEED, PEAK_ACCELERATION = 1.875, 5.7735
 """Greatest speed and acceleration of the profile, over displacement / time and displacement / time^2 [1]."""
+EASING = 0.2
+"""Time in which a turn reaches its rate, and in which it ends [s]."""
 SHORTEST = 0.05
 """Joints take at least this long [s]."""
 
@@ -26,3 +30,16 @@ def least_jerk(duration: float) -> Iterator[tuple[float, float]]:
     for k in range(1, count + 1):
         s = k / count
         yield s**3 * (10 - 15 * s + 6 * s * s), 30 * s * s * (1 - s) ** 2 / (count * TICK)
+
+
+def course(start: float, end: float, rate: float) -> FloatArray:
+    """Return the angles [rad], one a tick after ``start``, to ``end`` at up to ``rate`` [rad/s]."""
+    away = abs(end - start)
+    if away == 0.0:
+        return np.array([end])
+    easing = min(EASING, away / rate)
+    # The speed rises and falls along a smooth step, so that easing in and out covers half the angle of full speed.
+    time = np.arange(0.5, max(round((away / rate + easing) / TICK), 1)) * TICK
+    share = np.clip(np.minimum(time, time[::-1]) / easing, 0.0, 1.0)
+    speed: FloatArray = share * share * (3.0 - 2.0 * share)
+    return start + (end - start) * np.cumsum(speed) / speed.sum()

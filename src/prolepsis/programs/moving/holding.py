@@ -8,13 +8,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from prolepsis.geometry.rotations import inverse, product, turned
+from prolepsis.geometry.rotations import inverse, matrix, product, turned
 from prolepsis.geometry.shape import Quaternion, Triple, triple
 from prolepsis.log.things import Thing
-from prolepsis.programs.following import follow, go
-from prolepsis.programs.grasping import as_seen, wrapped, yaw_of
-from prolepsis.programs.profile import PEAK_SPEED, least_jerk
-from prolepsis.programs.turning import matrix
+from prolepsis.programs.moving.following import follow, go
+from prolepsis.programs.moving.grasping import as_seen, wrapped, yaw_of
+from prolepsis.programs.moving.profile import PEAK_SPEED, least_jerk
 from prolepsis.robots.commands import ActionFailedError, Behaviour, HandSense, Sense, Way, no_way
 from prolepsis.scene.extent import middle, support
 from prolepsis.terms.errors import PlanError

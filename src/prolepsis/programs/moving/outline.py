@@ -6,9 +6,9 @@ import itertools
 
 import numpy as np
 
+from prolepsis.geometry.rotations import matrix
 from prolepsis.geometry.shape import FloatArray, Geom
 from prolepsis.log.things import Thing
-from prolepsis.programs.turning import matrix
 
 SPACING = 0.008
 """Greatest distance of two points along an edge [m]."""

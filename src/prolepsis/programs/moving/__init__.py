@@ -1,0 +1,1 @@
+"""How hands are moved: where they grasp and hold, along which paths, in which time. Actions share it."""
