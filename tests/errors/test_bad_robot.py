@@ -19,7 +19,7 @@ def refused(folder: Path, text: str, model: str | None = None) -> str:
     """Return the message with which a scenario is refused."""
     for name in ("own_arm.ttl", "own_arm.xml"):
         shutil.copy(ROOT / "examples" / name, folder)
-    shutil.copy(ROOT / "tests" / "physics" / "own_arm.urdf", folder)
+    shutil.copy(ROOT / "tests" / "robots" / "own_arm.urdf", folder)
     if model is not None:
         (folder / "own_arm.xml").write_text(model, encoding="utf-8")
     (folder / "own_arm.toml").write_text(text, encoding="utf-8")
@@ -202,7 +202,7 @@ def test_a_bad_model(tmp_path: Path, old: str, new: str, message: str) -> None:
 
 
 def test_a_urdf_whose_meshes_are_missing(tmp_path: Path) -> None:
-    urdf = (ROOT / "tests" / "physics" / "own_arm.urdf").read_text(encoding="utf-8")
+    urdf = (ROOT / "tests" / "robots" / "own_arm.urdf").read_text(encoding="utf-8")
     for name, solid in (("wrist", '<sphere radius="0.04"/>'), ("turret", '<cylinder radius="0.08" length="0.1"/>')):
         assert urdf.count(solid) == 1
         urdf = urdf.replace(solid, f'<mesh filename="package://my_arm/meshes/{name}.stl"/>')
