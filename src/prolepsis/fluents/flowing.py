@@ -142,7 +142,7 @@ def _way_out(
     """
     frame, particle = passages.frame[during], passages.particle[during]
     # Without a spill level nothing is kept, and whatever leaves runs out over the rim.
-    rim = np.where(np.isnan(inside.brim), -np.inf, inside.brim - BELOW_RIM * seen.particles.spacing)
+    rim = np.nan_to_num(inside.brim(), nan=-np.inf) - BELOW_RIM * seen.particles.spacing
     through = np.ones(len(frame), dtype=np.bool_)
     at, going = frame.copy(), np.arange(len(frame))
     while len(going):
@@ -167,7 +167,7 @@ def _state(observation: Observation, seen: Places, inside: Inside, start: int, e
     first, last = np.searchsorted(seen.particles.tick, (start, end))
     held = inside.hollow[first:last] @ seen.particles.volume
     fullest = int(np.argmax(held)) + int(first)
-    capacity = inside.capacity[fullest]() if fullest in inside.capacity else 0.0
+    capacity = inside.capacity(fullest)
     evidence: dict[str, float | str] = {"tilt": float(tilt.max()), "tilt_before": float(tilt[0])}
     if capacity > 0:
         # A liquid bulges over the rim of what is full to the brim.

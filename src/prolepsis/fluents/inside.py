@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from prolepsis.fluents.hollows import hollows_of
 from prolepsis.fluents.intervals import mask_of, runs, ticks_of
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.shapes_in_time import RigidShape
-from prolepsis.geometry.cavity import ORIENTATIONS, Cavity, cavity_of
 from prolepsis.geometry.rigid import rotate, rotate_back
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.geometry.solids import samples
@@ -18,6 +18,9 @@ from prolepsis.geometry.solids import samples
 INSIDE_SHARE = 0.5
 """Share of x's volume [1] below the spill level from which x is inside: an apple on a plate is not, a ball that
 just looks out of a cup is."""
+CLEARANCE = 0.7
+"""Share of its least half-width [1] that a body needs around its inner points to pass a gap: it does not slip
+through a grate. Its samples lie within a quarter of its half-width, so it may touch a wall."""
 LOOK_STEP = 0.02
 """Time between two looks [s]; what goes in or out is followed tick by tick."""
 REST_SPEED = 0.01
@@ -104,11 +107,6 @@ def extents(observation: Observation) -> dict[int, tuple[FloatArray, FloatArray]
     return {}
 
 
-def cavities(observation: Observation) -> dict[int, Cavity]:
-    """Return the free space around shapes, by identity, filled when first needed."""
-    return {}
-
-
 @dataclass(frozen=True, kw_only=True, slots=True)
 class _Viewer:
     observation: Observation
@@ -120,21 +118,22 @@ class _Viewer:
     def look(self, ticks: IntArray) -> tuple[FloatArray, FloatArray]:
         """Return the share inside [1] and the depth of the middle [m] at ticks, each of their shape."""
         observation = self.observation
-        known = observation.of(cavities)
-        if id(self.hollow) not in known:
-            known[id(self.hollow)] = cavity_of(self.hollow.matter)
-        cavity = known[id(self.hollow)]
+        hollows = hollows_of(observation, self.hollow)
         pose, host = observation.log.poses[ticks, self.shape.body], observation.log.poses[ticks, self.hollow.body]
         up = rotate_back(host[:, 3:], observation.up)
         place = rotate(pose[:, None, 3:], self.points) + (pose[:, :3] - host[:, :3])[:, None]
         local = rotate_back(host[:, None, 3:], place)
-        half = min(solid.half_width for solid in self.shape.solids)
+        step = hollows.space.step
+        # Whole steps, so that bodies that are alike share what is found.
+        clearance = step * int(CLEARANCE * min(solid.half_width for solid in self.shape.solids) / step)
         share, depth = np.zeros(len(ticks)), np.zeros(len(ticks))
-        for first, place_of, direction in _distinct(up, local, cavity.step):
-            deep = cavity.depth(local[first].reshape(-1, 3), np.repeat(up[first], len(self.points), axis=0), half)
+        for direction, first, way, here in _distinct(hollows.which[ticks], local, step):
+            pools = hollows.pools(direction, clearance)
+            upward = np.repeat(up[first], len(self.points), axis=0)
+            deep = hollows.space.depth(local[first].reshape(-1, 3), upward, pools, clearance)
             deep = deep.reshape(len(first), -1)
-            share[direction] = ((deep > 0) @ self.weights)[place_of]
-            depth[direction] = (deep @ self.weights)[place_of]
+            share[here] = ((deep > 0) @ self.weights)[way]
+            depth[here] = (deep @ self.weights)[way]
         return share, depth
 
     def first_inside(self, first: int, last: int) -> int:
@@ -149,21 +148,21 @@ class _Viewer:
         return int(ticks[np.argmax(outside)]) if outside.any() else last
 
 
-def _distinct(up: FloatArray, local: FloatArray, step: float) -> Iterator[tuple[IntArray, IntArray, IntArray]]:
+def _distinct(
+    directions: IntArray, local: FloatArray, step: float
+) -> Iterator[tuple[int, IntArray, IntArray, IntArray]]:
     """Yield, for each direction of up in the container, the ticks at which the body lies there in distinct ways.
 
     A twentieth of a grid step makes no difference, and what rests, rests for thousands of ticks.
 
     Yields:
-        One tick for each way of lying; for each tick of the direction, its way; the ticks of the direction.
+        The direction; one tick for each way of lying; for each tick of the direction, its way; the ticks of it.
     """
-    corners = local[:, [0, -1]].reshape(len(local), -1)
-    key = np.rint(np.concatenate((up * ORIENTATIONS, corners / (0.05 * step)), axis=1)).astype(np.int64)
-    _, direction = np.unique(key[:, :3], axis=0, return_inverse=True)
-    for number in range(int(direction.max()) + 1):
-        ticks = np.flatnonzero(direction.ravel() == number)
+    key = np.rint(local[:, [0, -1]].reshape(len(local), -1) / (0.05 * step)).astype(np.int64)
+    for direction in np.unique(directions).tolist():
+        ticks = np.flatnonzero(directions == direction)
         _, first, way = np.unique(key[ticks], axis=0, return_index=True, return_inverse=True)
-        yield ticks[first], way.ravel(), ticks
+        yield direction, ticks[first], way.ravel(), ticks
 
 
 def _between_bounds(

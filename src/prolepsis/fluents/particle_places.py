@@ -6,18 +6,20 @@ what is carried along stays inside; all others are looked at for the surfaces th
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from prolepsis.fluents.hollows import NEAR, PLUG, hollows_of
+from prolepsis.fluents.kernels.matter import assembled
 from prolepsis.fluents.observation import Observation, is_held_from_outside
 from prolepsis.fluents.shapes_in_time import Part, RigidShape, rigid_shapes
-from prolepsis.geometry.rigid import rotate, rotate_back
+from prolepsis.geometry.hollows import BLOCKED, Space
+from prolepsis.geometry.rigid import rotate
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.geometry.spreading import spread
 from prolepsis.log.log import FREE, Particles
 
 SURFACE_TOLERANCE = 0.75
@@ -38,6 +40,42 @@ Bits = npt.NDArray[np.uint8]
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class Rim:
+    """Up to which height one rigid shape would keep a liquid in each frame, its holes stopped; found when asked for."""
+
+    space: Space
+    """The free space in and round the shape, holes stopped that are known."""
+    plug: float
+    """Gaps that leave no more than this on either side count as holes, too [m]."""
+    up: FloatArray
+    """Directions up that are told apart, in the shape's frame, shape (K, 3)."""
+    which: IntArray
+    """The direction in each frame, shape (F,)."""
+    during: BoolArray
+    """The frames in which the unit is this shape, shape (F,)."""
+    base: FloatArray
+    """Height of the shape's origin in each frame [m], world frame, shape (F,)."""
+    levels: dict[int, float]
+    """Spill levels that are known, by direction [m], in the shape's frame; minus infinity where nothing would stay."""
+
+    def brim(self) -> FloatArray:
+        """Return the height of the spill level in each frame [m], world frame, shape (F,); NaN where there is none."""
+        found = np.full(len(self.base), np.nan)
+        for direction in np.unique(self.which[self.during]).tolist():
+            if direction not in self.levels:
+                self.levels[direction] = float(self.space.pools(self.up[direction], self.plug).max())
+            if self.levels[direction] > -np.inf:
+                at = self.during & (self.which == direction)
+                found[at] = self.levels[direction] + self.base[at]
+        return found
+
+    def capacity(self, frame: int) -> float:
+        """Return the volume up to the spill level in a frame [m^3]."""
+        basin = self.space.basin(self.up[self.which[frame]], self.plug) if self.during[frame] else None
+        return 0.0 if basin is None else basin.capacity
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class Inside:
     """Which particles are in the cavities of one unit."""
 
@@ -51,10 +89,19 @@ class Inside:
     """In the hollow or so near that they have not left it yet, shape (F, P)."""
     depth: npt.NDArray[np.float32]
     """How far below the spill level those of the pool are [m], shape (F, P)."""
-    brim: FloatArray
-    """Height of the spill level in each frame, holes plugged [m], world frame, shape (F,); NaN where there is none."""
-    capacity: Mapping[int, Callable[[], float]]
-    """Gives the volume up to the spill level in a frame, holes plugged [m^3]: it is not asked for often."""
+    rims: tuple[Rim, ...]
+    """Of the rigid shapes that the unit was."""
+
+    def brim(self) -> FloatArray:
+        """Return the height of the spill level in each frame, holes stopped [m], shape (F,); NaN where none is."""
+        found = self.rims[0].brim()
+        for rim in self.rims[1:]:
+            found = np.fmax(found, rim.brim())
+        return found
+
+    def capacity(self, frame: int) -> float:
+        """Return the volume up to the spill level in a frame, holes stopped [m^3]."""
+        return max(rim.capacity(frame) for rim in self.rims)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -127,10 +174,10 @@ def _inside(observation: Observation, particles: Particles, loose: BoolArray) ->
         if not shape.is_hollow or is_held_from_outside(observation, unit):
             continue
         low, high = shape.bounds()
-        frames = np.flatnonzero(shape.during[particles.tick])
-        if not len(frames) or not _comes_near(observation, particles, loose, shape, low, high):
+        frames = shape.during[particles.tick]
+        if not frames.any() or not _comes_near(observation, particles, loose, shape, low, high):
             continue
-        seen = _seen_inside(observation, particles, loose, shape, frames)
+        seen = _seen_inside(observation, particles, loose, shape)
         if seen is None:
             continue
         size = float(np.prod(high - low))
@@ -146,8 +193,7 @@ def _joined(one: Inside, other: Inside) -> Inside:
         hollow=one.hollow | other.hollow,
         near=one.near | other.near,
         depth=np.maximum(one.depth, other.depth),
-        brim=np.fmax(one.brim, other.brim),
-        capacity={**one.capacity, **other.capacity},
+        rims=one.rims + other.rims,
     )
 
 
@@ -167,51 +213,48 @@ def _comes_near(
     return bool((near & loose).any())
 
 
-def _seen_inside(
-    observation: Observation, particles: Particles, loose: BoolArray, shape: RigidShape, frames: IntArray
-) -> Inside | None:
+def _seen_inside(observation: Observation, particles: Particles, loose: BoolArray, shape: RigidShape) -> Inside | None:
     # Imported here: logs without particles are recognized without compiled loops.
-    from prolepsis.fluents.kernels.basin import HOLLOW, POOL, ROUND, basin_of, direction_of, key_of
-    from prolepsis.fluents.kernels.matter import assembled
-    from prolepsis.fluents.kernels.places import pool_bits
+    from prolepsis.fluents.kernels.places import HOLLOW, POOL, ROUND, pool_bits
 
-    low, high = shape.bounds()
-    solids = assembled(shape.parts)
-    plugged = None
-    if all(part.shape.profile for part in shape.parts):
-        plugged = assembled(shape.parts, plugged=True) if any(part.shape.holes for part in shape.parts) else solids
-    basin = basin_of(solids, plugged, low, high, particles.spacing)
-    if not basin.holds:
-        return None
+    spacing = particles.spacing
+    hollows = hollows_of(observation, shape)
+    space, which = hollows.space, hollows.which[particles.tick]
     poses = np.ascontiguousarray(observation.log.poses[particles.tick, shape.body])
-    keys = key_of(rotate_back(poses[:, 3:], observation.up))
+    during = shape.during[particles.tick]
+    rim = Rim(
+        space=space, plug=PLUG, up=hollows.up, which=which, during=during, base=poses[:, :3] @ observation.up, levels={}
+    )
+    if all(part.shape.profile for part in shape.parts):
+        rim = replace(rim, plug=0.0)
+        if any(part.shape.holes for part in shape.parts):
+            rim = replace(rim, space=space.on_same_grid(assembled(shape.parts, plugged=True)))
+    within = rim.space.hollow(rim.plug)
+    if not within.any():
+        return None
+    free = rim.space.distance >= BLOCKED * space.step
+    near = spread(within, free, max(1, round(NEAR * spacing / space.step)))
     bits = np.zeros(loose.shape, dtype=np.uint8)
     depth = np.zeros(loose.shape, dtype=np.float32)
-    brim = np.full(len(poses), np.nan)
-    capacity: dict[int, Callable[[], float]] = {}
-    for row in np.unique(keys[frames], axis=0).tolist():
-        key: tuple[int, int, int] = (row[0], row[1], row[2])
-        chosen = frames[(keys[frames] == row).all(axis=1)]
-        up = direction_of(key)
+    for direction in np.unique(which[during]).tolist():
+        up = hollows.up[direction]
+        pool = space.pools(up)
+        if rim.space is space and not rim.plug:
+            rim.levels[direction] = float(pool.max())
         pool_bits(
-            particles.position, chosen, loose, poses, up, basin.origin, basin.step, basin.distance, basin.pool(key),
-            basin.hollow, basin.round, particles.spacing, SURFACE_TOLERANCE * particles.spacing, bits, depth,
+            particles.position, np.flatnonzero(during & (which == direction)), loose, poses, up, space.origin,
+            space.step, space.distance, pool, within, near, spacing, SURFACE_TOLERANCE * spacing, bits, depth,
         )  # fmt: skip
-        closed = basin.pool(key, plugged=plugged is not solids)
-        capacity |= dict.fromkeys(chosen.tolist(), partial(basin.capacity, key))
-        if (closed > -np.inf).any():
-            brim[chosen] = float(closed.max()) + poses[chosen, :3] @ observation.up
     pool = (bits & POOL) > 0
     hollow = pool | ((bits & HOLLOW) > 0)
-    unit = int(observation.unit[shape.body])
     near = hollow | ((bits & ROUND) > 0)
-    return Inside(unit=unit, pool=pool, hollow=hollow, near=near, depth=depth, brim=brim, capacity=capacity)
+    unit = int(observation.unit[shape.body])
+    return Inside(unit=unit, pool=pool, hollow=hollow, near=near, depth=depth, rims=(rim,))
 
 
 def _touching(
     observation: Observation, particles: Particles, loose: BoolArray, inside: tuple[Inside, ...]
 ) -> tuple[Bits, npt.NDArray[np.int16]]:
-    from prolepsis.fluents.kernels.matter import assembled
     from prolepsis.fluents.kernels.piles import pile_up
     from prolepsis.fluents.kernels.places import touch_surfaces
 

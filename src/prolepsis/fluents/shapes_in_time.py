@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from prolepsis.fluents.observation import Observation
-from prolepsis.geometry.cavity import Matter
 from prolepsis.geometry.rigid import multiply, rotate_back
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray, Shape
 from prolepsis.geometry.solids import Solid, bounded, matrix
@@ -46,13 +45,6 @@ class Part:
         placed = corners @ self.turn.T + self.shift
         return placed.min(axis=0), placed.max(axis=0)
 
-    def distance(self, points: FloatArray, /) -> FloatArray:
-        """Return the signed distance of points in the body's frame to the exact shape [m], (N, 3) to (N,)."""
-        # Imported here: a log without exact shapes is recognized without the library that makes their fields fast.
-        from prolepsis.geometry.signed_distance import field_of
-
-        return field_of(self.shape).distance((points - self.shift) @ self.turn)
-
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class RigidShape:
@@ -66,11 +58,6 @@ class RigidShape:
     """The shapes that it consists of."""
     during: BoolArray
     """When it is so, shape (T,)."""
-
-    @property
-    def matter(self) -> tuple[Matter, ...]:
-        """What it takes up space with: exact shapes, and the convex solids of others."""
-        return tuple(m for part in self.parts for m in ((part,) if part.is_exact else part.solids))
 
     @property
     def is_hollow(self) -> bool:

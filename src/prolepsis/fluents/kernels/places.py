@@ -15,6 +15,8 @@ Positions = npt.NDArray[np.float32]
 Bits = npt.NDArray[np.uint8]
 Labels = npt.NDArray[np.int16]
 
+POOL, HOLLOW, ROUND = 1, 2, 4
+"""Bits that say where a particle is: in the pool, in the hollow, or near the hollow round its rim."""
 BESIDE, ON, RESTING = 1, 2, 3
 """How a particle touches a surface: along a wall, on top of it, or on top and hardly moving."""
 

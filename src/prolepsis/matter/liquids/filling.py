@@ -8,9 +8,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from prolepsis.geometry.hollows import Basin, space_of
 from prolepsis.geometry.shape import FloatArray, Geom, Shape
+from prolepsis.geometry.signed_distance import shifted
 from prolepsis.log.things import Thing
-from prolepsis.matter.liquids.basin import Basin, basin_of
 from prolepsis.matter.liquids.liquids import Place
 from prolepsis.matter.liquids.packing import lattice, lowest, relaxed
 from prolepsis.matter.liquids.region import Region, box_of
@@ -24,6 +25,8 @@ FULL = 1.002
 """Volume over capacity [1] up to which rounding may go."""
 GRAVITY = 9.81
 """[m/s^2], for how thick a puddle is."""
+UP = np.array([0.0, 0.0, 1.0])
+"""Direction against gravity."""
 UNEVEN = 0.25
 """How far from the spacing the ground under a puddle may lie [spacings]."""
 
@@ -49,18 +52,18 @@ def fill(
     """
     if not liquids:
         return (), ()
-    basins: dict[str, Basin] = {}
+    basins: dict[str, tuple[Placed, Basin]] = {}
     for name in sorted({place.host for place in places.values() if place.relation == "contains"}):
-        basins[name] = _basin(name, solids[name])
+        basins[name] = basin_of(name, solids[name])
     volumes = {each.name: _volume(each, places[each.name], basins) for each in liquids}
     spacing = (max(volumes.values()) / particles) ** (1 / 3)
     counts = {name: round(volume / spacing**3) for name, volume in volumes.items()}
     _refuse_counts(counts, particles)
     matter = tuple(placed(thing) for each in solids.values() for thing in each if thing.shape.geoms)
     found: dict[str, FloatArray] = {}
-    for host, basin in basins.items():
+    for host, (container, basin) in basins.items():
         inside = [each for each in liquids if places[each.name] == Place(relation="contains", host=host)]
-        found |= _poured(basin, inside, volumes, counts, spacing, matter)
+        found |= _poured(container, basin, inside, volumes, counts, spacing, matter)
     for each in liquids:
         place = places[each.name]
         if place.relation == "on":
@@ -105,20 +108,29 @@ def _refuse_counts(counts: Mapping[str, int], particles: int) -> None:
         )
 
 
-def _basin(name: str, bodies: tuple[Thing, ...]) -> Basin:
-    basin = basin_of(bodies[0]) if bodies and bodies[0].shape.geoms else None
-    if basin is None:
-        raise KnowledgeError(
-            f"{name} contains a liquid at the start, but as it stands it has no cavity that would hold any"
-        )
-    return basin
+def basin_of(name: str, bodies: tuple[Thing, ...]) -> tuple[Placed, Basin]:
+    """Return a container as it stands, its holes stopped, and its basin.
+
+    Raises:
+        KnowledgeError: If it has none.
+    """
+    if bodies and bodies[0].shape.geoms:
+        whole = replace(bodies[0], shape=replace(bodies[0].shape, holes=()))
+        container = placed(whole)
+        solids = shifted(container.field.solids, np.array([*whole.position, *whole.orientation]))
+        basin = space_of(solids, container.low, container.high).basin(UP)
+        if basin is not None:
+            return container, basin
+    raise KnowledgeError(
+        f"{name} contains a liquid at the start, but as it stands it has no cavity that would hold any"
+    )
 
 
-def _volume(liquid: Thing, place: Place, basins: Mapping[str, Basin]) -> float:
+def _volume(liquid: Thing, place: Place, basins: Mapping[str, tuple[Placed, Basin]]) -> float:
     """Return the volume of a liquid [m^3]."""
     known = liquid.quantities.get("volume")
     if known is None and "fill" in liquid.quantities and place.relation == "contains":
-        known = liquid.quantities["fill"] * basins[place.host].capacity
+        known = liquid.quantities["fill"] * basins[place.host][1].capacity
     if known is None:
         raise KnowledgeError(f"{liquid.name} ({liquid.kind}) has no volume; state :volume, :mass or :fill")
     if "density" not in liquid.quantities:
@@ -129,6 +141,7 @@ def _volume(liquid: Thing, place: Place, basins: Mapping[str, Basin]) -> float:
 
 
 def _poured(
+    container: Placed,
     basin: Basin,
     liquids: Sequence[Thing],
     volumes: Mapping[str, float],
@@ -139,19 +152,18 @@ def _poured(
     """Return the particles of all liquids in one container, the densest at the bottom."""
     ordered = sorted(liquids, key=lambda each: (-each.quantities["density"], each.name))
     names = " and ".join(each.name for each in ordered)
-    container = basin.container.name
-    volume, capacity = sum(volumes[each.name] for each in ordered), basin.capacity
+    host, volume, capacity = container.name, sum(volumes[each.name] for each in ordered), basin.capacity
     if volume > FULL * capacity:
         raise KnowledgeError(
-            f"{names}: {1e6 * volume:.4g} ml are to be in {container}, which holds {1e6 * capacity:.4g} ml as it stands"
+            f"{names}: {1e6 * volume:.4g} ml are to be in {host}, which holds {1e6 * capacity:.4g} ml as it stands"
         )
     level = basin.level(volume)
-    region = Region.of(basin, matter, spacing, level)
+    region = Region.of(container, basin, matter, spacing, level)
     count = sum(counts[each.name] for each in ordered)
     points = lowest(region.admits, *box_of(region, basin), count, spacing)
     if points is None:
         raise KnowledgeError(
-            f"{names}: the cavity of {container} is too narrow for {count} particles {1e3 * spacing:.2g} mm apart; "
+            f"{names}: the cavity of {host} is too narrow for {count} particles {1e3 * spacing:.2g} mm apart; "
             f"allowed: more particles"
         )
     points = relaxed(points, spacing, region.confine)

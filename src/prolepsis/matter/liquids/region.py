@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from prolepsis.geometry.hollows import Basin
 from prolepsis.geometry.shape import BoolArray, FloatArray
-from prolepsis.matter.liquids.basin import Basin
 from prolepsis.scene.placed import Placed, nearest
 
 SMALL = 1e-4
@@ -28,12 +28,12 @@ class Region:
     """What it is the inside of, if anything."""
 
     @classmethod
-    def of(cls, basin: Basin, others: tuple[Placed, ...], spacing: float, level: float) -> Region:
-        """Return the region in a basin up to a level [m], clear of what else is near."""
-        low, high = basin.container.low - spacing, basin.container.high + spacing
-        near = [each for each in others if each.name != basin.container.name]
+    def of(cls, container: Placed, basin: Basin, others: tuple[Placed, ...], spacing: float, level: float) -> Region:
+        """Return the region in the basin of a container up to a level [m], clear of what else is near."""
+        low, high = container.low - spacing, container.high + spacing
+        near = [each for each in others if each.name != container.name]
         near = [each for each in near if (each.low < high).all() and (each.high > low).all()]
-        matter = (basin.container, *near)
+        matter = (container, *near)
         return cls(matter=matter, clearance=0.5 * spacing, level=level - 0.5 * spacing, basin=basin)
 
     def admits(self, points: FloatArray) -> BoolArray:
@@ -60,9 +60,9 @@ class Region:
 def box_of(region: Region, basin: Basin) -> tuple[FloatArray, FloatArray]:
     """Return the least and greatest coordinates that centres can have in a basin [m], each of shape (3,)."""
     across = [np.flatnonzero(basin.nodes.any(axis=axes)) for axes in ((1, 2), (0, 2))]
-    first = int(np.flatnonzero(basin.areas > 0)[0])
-    low = basin.origin + basin.step * np.array([across[0][0], across[1][0], first])
-    high = basin.origin + basin.step * np.array([across[0][-1], across[1][-1], first])
+    low = basin.origin + basin.step * np.array([across[0][0], across[1][0], 0])
+    high = basin.origin + basin.step * np.array([across[0][-1], across[1][-1], 0])
+    low[2] = basin.bottom + basin.step * int(np.flatnonzero(basin.areas > 0)[0])
     # The lowest layer of particles lies on the deepest floor.
     low[2] = _floor(region, basin, low, high) + region.clearance
     high[2] = region.level

@@ -1,4 +1,7 @@
-"""Signed distances at all nodes of a grid, block by block: most solids are too far from a block to matter there."""
+"""Signed distances to solids: at all nodes of a grid, block by block, and at points, with the nearest face.
+
+Most solids are too far from a block of nodes to matter there.
+"""
 
 from __future__ import annotations
 
@@ -14,6 +17,8 @@ SIDE = 6
 """Nodes along the edge of a block."""
 SLACK = 1.0e-9
 """What rounding may add to a distance [m]."""
+AT_ONCE = 1024
+"""Points that are looked at together."""
 
 
 @njit(cache=True)
@@ -126,3 +131,26 @@ def _to_hull(
         for f in range(chosen):
             beyond = max(beyond, planes[f, 0] * x + planes[f, 1] * y + planes[f, 2] * z - planes[f, 3])
         distance[m] = min(distance[m], beyond)
+
+
+@njit(cache=True)
+def nearest_faces(solids: Solids, points: FloatArray, reach: float) -> FloatArray:
+    """Return the signed distance [m] and outward normal of the face nearest to each point, shape (N, 4).
+
+    Args:
+        solids: The solids.
+        points: In their frame [m], shape (N, 3).
+        reach: A face further than this [m] is not found: its distance is infinite, its normal zero.
+    """
+    result = np.zeros((len(points), 4))
+    result[:, 0] = np.inf
+    room = min(len(points), AT_ONCE)
+    found, seen = np.empty((room, MOST_FACES, 4)), np.empty(room, dtype=np.int64)
+    for begin in range(0, len(points), AT_ONCE):
+        some = points[begin : begin + AT_ONCE]
+        for s in range(len(solids.kind)):
+            faces_of(solids, s, some, len(some), reach, found, seen)
+            for m in range(len(some)):
+                if seen[m] > 0 and found[m, 0, 0] < result[begin + m, 0]:
+                    result[begin + m] = found[m, 0]
+    return result
