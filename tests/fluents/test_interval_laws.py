@@ -12,7 +12,7 @@ from tests.fluents.worlds import FLOOR, STEP, ball, box, cup_geoms, free, roll, 
 from prolepsis.fluents import recognize
 from prolepsis.fluents.intervals import close_gaps, debounce, drop_short, hysteresis, mask_of, runs, ticks_of, union
 from prolepsis.geometry.hull import hull_planes
-from prolepsis.geometry.rigid import multiply, rotate
+from prolepsis.geometry.rotations import multiply, rotate
 from prolepsis.geometry.shape import BoolArray, FloatArray
 from prolepsis.log.log import Contacts, Log
 from prolepsis.log.timeline import Timeline

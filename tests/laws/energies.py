@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from prolepsis.engine.world import World
-from prolepsis.geometry.rigid import multiply, rotate, rotate_back
+from prolepsis.geometry.rotations import multiply, rotate, rotate_back
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.log.log import Log
 

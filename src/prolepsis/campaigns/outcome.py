@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from prolepsis.geometry.rigid import rotate_back
+from prolepsis.geometry.rotations import rotate_back
 from prolepsis.log.fact_types import arguments_of
 from prolepsis.log.log import Log
 from prolepsis.log.timeline import Fact, Timeline

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from prolepsis.engine.stretches import Matter, Stretch
-from prolepsis.geometry.rigid import rotate
+from prolepsis.geometry.rotations import rotate
 from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.geometry.solids import Solid, solid_of
 from prolepsis.log.log import Contacts

@@ -15,8 +15,7 @@ from prolepsis.engine.sinking import LEAST_LIMIT, Overlaps
 from prolepsis.engine.state import State
 from prolepsis.engine.stretches import Bodies, Matter, Stretch
 from prolepsis.engine.touching import empty_contacts
-from prolepsis.geometry.rigid import multiply, rotate
-from prolepsis.geometry.rotations import matrix
+from prolepsis.geometry.rotations import matrix, multiply, rotate
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.log import Contacts, Joints, Particles
 from prolepsis.log.particle_tables import rounded

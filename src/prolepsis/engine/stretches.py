@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.geometry.rigid import multiply, rotate
+from prolepsis.geometry.rotations import multiply, rotate
 from prolepsis.geometry.shape import BoolArray, FloatArray, Geom, IntArray
 from prolepsis.log.things import Thing
 from prolepsis.system.mujoco import mujoco

@@ -14,7 +14,7 @@ from prolepsis.fluents.observation import Observation, is_held_from_outside, is_
 from prolepsis.fluents.registry import fluent
 from prolepsis.fluents.support import NOTICEABLE_SHARE, supporters
 from prolepsis.fluents.touch import Touch, touches
-from prolepsis.geometry.rigid import rotate_back
+from prolepsis.geometry.rotations import rotate_back
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.timeline import Fact
 

@@ -12,7 +12,7 @@ from prolepsis.fluents.kinematics import centres, surface_speeds, velocities
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event
 from prolepsis.fluents.touch import Touch, touches
-from prolepsis.geometry.rigid import cross, multiply
+from prolepsis.geometry.rotations import cross, multiply
 from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.log.timeline import Fact
 

@@ -12,7 +12,7 @@ from prolepsis.fluents.intervals import close_gaps, runs, ticks_of
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.particle_places import Inside, Places, places
 from prolepsis.fluents.registry import event
-from prolepsis.geometry.rigid import rotate
+from prolepsis.geometry.rotations import rotate
 from prolepsis.geometry.shape import BoolArray, IntArray
 from prolepsis.log.log import FREE, PARKED
 from prolepsis.log.timeline import Fact

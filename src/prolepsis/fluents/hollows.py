@@ -8,7 +8,7 @@ from prolepsis.fluents.kernels.matter import assembled
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.shapes_in_time import RigidShape
 from prolepsis.geometry.hollows import Space, alike, space_of
-from prolepsis.geometry.rigid import rotate_back
+from prolepsis.geometry.rotations import rotate_back
 from prolepsis.geometry.shape import FloatArray, IntArray
 
 NEAR = 1.5

@@ -11,7 +11,7 @@ from prolepsis.fluents.hollows import hollows_of
 from prolepsis.fluents.intervals import mask_of, runs, ticks_of
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.shapes_in_time import RigidShape
-from prolepsis.geometry.rigid import rotate, rotate_back
+from prolepsis.geometry.rotations import rotate, rotate_back
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.geometry.solids import samples
 

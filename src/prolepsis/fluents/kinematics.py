@@ -8,7 +8,7 @@ import numpy as np
 
 from prolepsis.fluents.intervals import ticks_of
 from prolepsis.fluents.observation import Observation
-from prolepsis.geometry.rigid import angle_between, rotate
+from prolepsis.geometry.rotations import angle_between, rotate
 from prolepsis.geometry.shape import BoolArray, FloatArray
 from prolepsis.geometry.solids import centroid, radius
 

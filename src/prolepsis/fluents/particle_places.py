@@ -17,7 +17,7 @@ from prolepsis.fluents.kernels.matter import assembled
 from prolepsis.fluents.observation import Observation, is_held_from_outside
 from prolepsis.fluents.shapes_in_time import Part, RigidShape, rigid_shapes
 from prolepsis.geometry.hollows import BLOCKED, Space
-from prolepsis.geometry.rigid import rotate
+from prolepsis.geometry.rotations import rotate
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.geometry.spreading import spread
 from prolepsis.log.log import FREE, Particles

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from prolepsis.fluents.observation import Observation
-from prolepsis.geometry.rigid import rotate, rotate_back
+from prolepsis.geometry.rotations import rotate, rotate_back
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.geometry.solids import Solid, bounded, solid_of
 

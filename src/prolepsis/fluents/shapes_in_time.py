@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from prolepsis.fluents.observation import Observation
-from prolepsis.geometry.rigid import multiply, rotate_back
+from prolepsis.geometry.rotations import matrix, multiply, rotate_back
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray, Shape
-from prolepsis.geometry.solids import Solid, bounded, matrix
+from prolepsis.geometry.solids import Solid, bounded
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)

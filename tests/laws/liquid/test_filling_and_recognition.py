@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from tests.fluents.liquids import liquid, placed, tilted, wet
 
+from prolepsis.engine.placing import resting_height
 from prolepsis.fluents import recognize
 from prolepsis.fluents.observation import observe
 from prolepsis.fluents.particle_places import places
@@ -53,7 +54,8 @@ def vessel(name: str, degrees: float) -> Thing:
 def filled(container: Thing, volume: float) -> Pool:
     """Return the particles of a volume [m^3] in it."""
     water = replace(liquid(), quantities={"density": 1000.0, "viscosity": 0.001, "volume": volume})
-    (pool,) = fill([water], {"liq1": Place(relation="contains", host="cup1")}, {"cup1": (container,)}, 1500)[1]
+    places = {"liq1": Place(relation="contains", host="cup1")}
+    (pool,) = fill([water], places, {"cup1": (container,)}, resting_height, 1500)[1]
     return pool
 
 
