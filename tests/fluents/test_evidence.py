@@ -25,7 +25,7 @@ WORDS = {"outcome", "by", "source"}
 def numbers_named() -> set[str]:
     """Return the keys of all evidence that the groundings write, read from their source."""
     found: set[str] = set()
-    for file in GROUNDINGS.glob("*.py"):
+    for file in GROUNDINGS.rglob("*.py"):
         for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Dict):
                 found |= {

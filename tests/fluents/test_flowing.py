@@ -31,7 +31,7 @@ from tests.fluents.logs import Draft, egg
 from tests.fluents.worlds import times
 
 from prolepsis.fluents import recognize
-from prolepsis.fluents.containment import NOTICEABLE_FRACTION
+from prolepsis.fluents.solids.containment import NOTICEABLE_FRACTION
 from prolepsis.geometry.shape import FloatArray, Geom, Hole, Shape
 from prolepsis.log.log import PARKED, Action, Log
 from prolepsis.log.things import Thing

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from prolepsis.fluents.attachment import HOLD_GAP
-from prolepsis.fluents.contact import FLICKER
-from prolepsis.fluents.fall import SAME_MOMENT
 from prolepsis.fluents.kinematics import BALANCE_WINDOW
-from prolepsis.fluents.support import SUPPORT_GAP, SUPPORT_LEAST
+from prolepsis.fluents.solids.attachment import HOLD_GAP
+from prolepsis.fluents.solids.contact import FLICKER
+from prolepsis.fluents.solids.fall import SAME_MOMENT
+from prolepsis.fluents.solids.support import SUPPORT_GAP, SUPPORT_LEAST
 from prolepsis.logic.process import PROLOG_FILES
 
 FILES = sorted((Path(__file__).parents[1] / "prolog").glob("*.plt"))

@@ -1,4 +1,4 @@
-"""Fluents and events: how each is found in a log, one family a file. Every file of this package is one."""
+"""Fluents and events: how each is found in a log - of solids, liquids, agents -, one family a file, found where it lies."""
 
 from __future__ import annotations
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from prolepsis.fluents.actions import action_facts
+from prolepsis.fluents.agents.actions import action_facts
 from prolepsis.fluents.observation import observe
 from prolepsis.fluents.registry import GROUNDINGS
 from prolepsis.log.domain import Domain

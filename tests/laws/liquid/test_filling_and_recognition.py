@@ -10,8 +10,8 @@ from tests.fluents.liquids import liquid, placed, tilted, wet
 
 from prolepsis.engine.placing import resting_height
 from prolepsis.fluents import recognize
+from prolepsis.fluents.liquids.particle_places import places
 from prolepsis.fluents.observation import observe
-from prolepsis.fluents.particle_places import places
 from prolepsis.geometry.shape import FloatArray, Geom, Shape
 from prolepsis.log.log import Log
 from prolepsis.log.things import Thing

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from prolepsis.fluents.intervals import debounce, ticks_of
+from prolepsis.fluents.liquids.particle_places import Places, places
+from prolepsis.fluents.liquids.stuff import FLOWING_SPEED, MOST, STUFF_GAP, STUFF_LEAST
 from prolepsis.fluents.observation import Observation
-from prolepsis.fluents.particle_places import Places, places
 from prolepsis.fluents.registry import event
-from prolepsis.fluents.stuff import FLOWING_SPEED, MOST, STUFF_GAP, STUFF_LEAST
 from prolepsis.geometry.shape import BoolArray, FloatArray
 from prolepsis.log.log import FREE, PARKED
 from prolepsis.log.timeline import Fact

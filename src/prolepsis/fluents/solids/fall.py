@@ -6,14 +6,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from prolepsis.fluents.attachment import attachment_runs, joint_runs
-from prolepsis.fluents.contact import is_stuff
 from prolepsis.fluents.intervals import close_gaps, hysteresis, mask_of, ticks_of, union
 from prolepsis.fluents.kinematics import climb_accelerations, climb_speeds, heights
 from prolepsis.fluents.observation import Observation, is_loose
 from prolepsis.fluents.registry import event
-from prolepsis.fluents.support import supporters
-from prolepsis.fluents.touch import touches
+from prolepsis.fluents.solids.attachment import attachment_runs, joint_runs
+from prolepsis.fluents.solids.contact import is_stuff
+from prolepsis.fluents.solids.support import supporters
+from prolepsis.fluents.solids.touch import touches
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.timeline import Fact
 

@@ -9,16 +9,16 @@ from collections.abc import Callable, Iterator, Mapping
 
 import numpy as np
 
-from prolepsis.fluents.contact import FLICKER, is_stuff
-from prolepsis.fluents.containment import NOTICEABLE_FRACTION, blob_shares, contents
-from prolepsis.fluents.fall import falling_runs
 from prolepsis.fluents.intervals import debounce, mask_of, union
 from prolepsis.fluents.kinematics import surface_speeds
-from prolepsis.fluents.motion import moving_runs
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event, fluent
-from prolepsis.fluents.support import support_runs
-from prolepsis.fluents.touch import touches
+from prolepsis.fluents.solids.contact import FLICKER, is_stuff
+from prolepsis.fluents.solids.containment import NOTICEABLE_FRACTION, blob_shares, contents
+from prolepsis.fluents.solids.fall import falling_runs
+from prolepsis.fluents.solids.motion import moving_runs
+from prolepsis.fluents.solids.support import support_runs
+from prolepsis.fluents.solids.touch import touches
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.timeline import Fact
 

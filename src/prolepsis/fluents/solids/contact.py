@@ -9,7 +9,7 @@ import numpy as np
 from prolepsis.fluents.intervals import debounce
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import fluent
-from prolepsis.fluents.touch import Touch, touches
+from prolepsis.fluents.solids.touch import Touch, touches
 from prolepsis.log.timeline import Fact
 
 FLICKER = 0.03

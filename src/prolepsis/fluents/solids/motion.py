@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from prolepsis.fluents.contact import is_stuff
 from prolepsis.fluents.intervals import close_gaps, runs, ticks_of
 from prolepsis.fluents.kinematics import centres, surface_speeds, travel
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event
+from prolepsis.fluents.solids.contact import is_stuff
 from prolepsis.geometry.shape import BoolArray, IntArray
 from prolepsis.log.timeline import Fact
 

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from prolepsis.fluents.flowing import Passages, evidence_of, streams
+from prolepsis.fluents.liquids.flowing import Passages, evidence_of, streams
+from prolepsis.fluents.liquids.particle_places import places
 from prolepsis.fluents.observation import Observation
-from prolepsis.fluents.particle_places import places
 from prolepsis.fluents.registry import event
-from prolepsis.fluents.touch import touches
+from prolepsis.fluents.solids.touch import touches
 from prolepsis.geometry.shape import BoolArray
 from prolepsis.log.log import FREE
 from prolepsis.log.timeline import Fact

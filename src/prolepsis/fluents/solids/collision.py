@@ -6,12 +6,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from prolepsis.fluents.contact import is_stuff, pair_names
 from prolepsis.fluents.intervals import ticks_of
 from prolepsis.fluents.kinematics import centres, surface_speeds, velocities
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event
-from prolepsis.fluents.touch import Touch, touches
+from prolepsis.fluents.solids.contact import is_stuff, pair_names
+from prolepsis.fluents.solids.touch import Touch, touches
 from prolepsis.geometry.rotations import cross, multiply
 from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.log.timeline import Fact

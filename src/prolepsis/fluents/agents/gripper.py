@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from prolepsis.fluents.actions import argument_of
+from prolepsis.fluents.agents.actions import argument_of
 from prolepsis.fluents.intervals import debounce, ticks_of
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from prolepsis.fluents.contact import FLICKER, is_stuff
 from prolepsis.fluents.intervals import close_gaps, debounce, mask_of, ticks_of, union
 from prolepsis.fluents.kinematics import centres
 from prolepsis.fluents.observation import Observation, is_held_from_outside, is_loose
 from prolepsis.fluents.registry import fluent
-from prolepsis.fluents.support import NOTICEABLE_SHARE, supporters
-from prolepsis.fluents.touch import Touch, touches
+from prolepsis.fluents.solids.contact import FLICKER, is_stuff
+from prolepsis.fluents.solids.support import NOTICEABLE_SHARE, supporters
+from prolepsis.fluents.solids.touch import Touch, touches
 from prolepsis.geometry.rotations import rotate_back
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.timeline import Fact

@@ -6,13 +6,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from prolepsis.fluents.contact import FLICKER, is_stuff
 from prolepsis.fluents.intervals import debounce, mask_of, one_sided_means, ticks_of
 from prolepsis.fluents.kinematics import BALANCE_WINDOW, balanced
 from prolepsis.fluents.observation import Observation, is_held_from_outside
 from prolepsis.fluents.registry import fluent
-from prolepsis.fluents.resting import fixed_supports
-from prolepsis.fluents.touch import touches
+from prolepsis.fluents.solids.contact import FLICKER, is_stuff
+from prolepsis.fluents.solids.resting import fixed_supports
+from prolepsis.fluents.solids.touch import touches
 from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.log.timeline import Fact
 

@@ -6,12 +6,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from prolepsis.fluents.containment import CONTAINED_GAP, CONTAINED_LEAST, NOTICEABLE_FRACTION
 from prolepsis.fluents.intervals import debounce
-from prolepsis.fluents.liquid_motion import FLOWING_SPEED, particle_speeds
+from prolepsis.fluents.liquids.liquid_motion import FLOWING_SPEED, particle_speeds
+from prolepsis.fluents.liquids.particle_places import Places, places
 from prolepsis.fluents.observation import Observation
-from prolepsis.fluents.particle_places import Places, places
 from prolepsis.fluents.registry import event, fluent
+from prolepsis.fluents.solids.containment import CONTAINED_GAP, CONTAINED_LEAST, NOTICEABLE_FRACTION
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.log import PARKED
 from prolepsis.log.timeline import Evidence, Fact

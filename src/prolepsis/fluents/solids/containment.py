@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from prolepsis.fluents.contact import is_stuff
 from prolepsis.fluents.inside import Depths, depths_within
 from prolepsis.fluents.intervals import close_gaps, debounce, drop_short, hysteresis, mask_of, runs, ticks_of, union
 from prolepsis.fluents.observation import Observation, is_held_from_outside
 from prolepsis.fluents.registry import fluent
 from prolepsis.fluents.shapes_in_time import RigidShape, rigid_shapes
-from prolepsis.fluents.support import support_runs, supporters
+from prolepsis.fluents.solids.contact import is_stuff
+from prolepsis.fluents.solids.support import support_runs, supporters
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.timeline import Fact
 

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from prolepsis.fluents.containment import NOTICEABLE_FRACTION
 from prolepsis.fluents.intervals import close_gaps, runs, ticks_of
+from prolepsis.fluents.liquids.particle_places import Inside, Places, places
 from prolepsis.fluents.observation import Observation
-from prolepsis.fluents.particle_places import Inside, Places, places
 from prolepsis.fluents.registry import event
+from prolepsis.fluents.solids.containment import NOTICEABLE_FRACTION
 from prolepsis.geometry.rotations import rotate
 from prolepsis.geometry.shape import BoolArray, IntArray
 from prolepsis.log.log import FREE, PARKED
