@@ -1,4 +1,4 @@
-"""Fluents and events: how each is found in a log - of solids, liquids, agents -, one family a file, found where it lies."""
+"""Fluents and events: how each is found in a log - of solids, liquids, agents -, one family a file."""
 
 from __future__ import annotations
 
