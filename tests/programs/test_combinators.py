@@ -16,7 +16,7 @@ from prolepsis.robots.commands import (
     Behaviour,
     Command,
     End,
-    Note,
+    Measured,
     OpenGripper,
     Sense,
 )
@@ -93,7 +93,7 @@ def test_an_action_within_an_action_is_an_event_of_its_own(two_hands: Scene) -> 
     def twice(sense: Sense) -> Behaviour:
         for _ in range(2):
             sense = yield from nested("lift", two_hands, sense, hand=two_hands.thing("hand1"), height=0.01)
-        sense = yield (Note(evidence={"times": 2.0}),)
+        sense = yield (Measured(evidence={"times": 2.0}),)
         return sense
 
     behaviour = as_event("twice", {"egg": "egg1"}, twice(hand.sense(0.0)), hand.sense(0.0))

@@ -24,7 +24,7 @@ from prolepsis.scene.compose import compose
 from prolepsis.scene.kind import Controller, Kind
 from prolepsis.scene.parts import Panel, Shard
 from prolepsis.scene.running import TICK, Running
-from prolepsis.terms.errors import KnowledgeError
+from prolepsis.terms.errors import KnowledgeError, UnknownNameError
 from prolepsis.terms.terms import parse_term
 
 FLOOR = ":floor a :Floor . "
@@ -132,3 +132,49 @@ def test_what_has_particles_of_its_own_is_seen_where_it_is() -> None:
     away = middle - log.poses[seen.tick, egg, :3]
     assert np.abs(away - away[0]).max() < 1e-5
     assert middle[-1, 2] < middle[0, 2] - 0.03
+
+
+class Misspelt(Kind):
+    """A kind of a class that there is not."""
+
+    roles = frozenset({"Absorbant"})
+
+
+def test_a_kind_of_an_unknown_class_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(UnknownNameError, match="Misspelt: no class named 'Absorbant'; did you mean 'Absorbent'"):
+        compose(load(tmp_path, FLOOR), (*known_kinds(), Misspelt()), resting_height, 100)
+
+
+def test_a_number_without_a_unit_is_no_text(tmp_path: Path) -> None:
+    property = ":waxiness a owl:DatatypeProperty ; rdfs:range <http://www.w3.org/2001/XMLSchema#double> ."
+    with pytest.raises(KnowledgeError, match="waxiness is a number without a unit; state qudt:hasUnit"):
+        load(tmp_path, property + FLOOR)
+
+
+SOAKED = """:b a :Block ; :on :floor ; :absorbentCapacity 15.0 ; :drippingRetention 0.7 ; :squeezedCapacity 2.0 ;
+    :youngsModulus 12000.0 ; :uptakeSpeed 0.005 ; :pressingTime 0.15 ; :recoveryTime 1.0 ; :drippingTime 10.0 ;
+    :density 50.0 ; :length 0.06 ; :width 0.05 ; :height 0.02 ; :saturation 0.5 ; :absorbs :w . :w a :Water ."""
+
+
+def test_what_is_told_to_absorb_is_a_sponge_whatever_it_is_called() -> None:
+    made = scene(FLOOR + SOAKED, particles=200)
+    assert "Absorbent" in made.thing("b").roles
+    with pytest.raises(KnowledgeError, match="b .Block. absorbs, but has no drippingRetention, squeezedCapacity"):
+        scene(FLOOR + ":b a :Block ; :on :floor ; :absorbentCapacity 5.0 .")
+    with pytest.raises(KnowledgeError, match="p .Furniture. is fixed, and what is fixed absorbs nothing"):
+        scene(FLOOR + ":p a :Sponge , :Furniture ; :z 0.1 .")
+
+
+def test_what_never_moves_does_not_break_or_yield() -> None:
+    with pytest.raises(
+        KnowledgeError, match="b .Egg. is Furniture, which never moves, and Shelled; allowed: one of them"
+    ):
+        scene(FLOOR + ":b a :Egg , :Furniture ; :z 0.75 .")
+
+
+def test_what_has_a_membrane_must_say_how_strong_it_is() -> None:
+    white = ":e a :Egg ; :on :floor ; :hasPart :w , :yolk9 . :yolk9 a :EggYolk . :w a :EggWhite , :Membraned ."
+    with pytest.raises(
+        KnowledgeError, match="w .EggWhite. has a membrane; state its membraneForce and the probeRadius"
+    ):
+        scene(FLOOR + white)

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from prolepsis.engine.gaining import Surroundings
 from prolepsis.engine.sinking import LEAST_LIMIT, Overlaps
 from prolepsis.engine.state import State
-from prolepsis.engine.stretches import Bodies, Matter, Stretch
+from prolepsis.engine.stretches import Matter, Movers, Stretch
 from prolepsis.engine.touching import empty_contacts
 from prolepsis.geometry.rotations import matrix, multiply, rotate
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
@@ -31,7 +31,7 @@ class _Version:
     body_of: IntArray
     thing_of_geom: IntArray
     matter: Matter
-    bodies: Bodies
+    bodies: Movers
 
 
 @dataclass(kw_only=True)
@@ -71,7 +71,7 @@ class Recorder:
                 body_of=body_of,
                 thing_of_geom=state.body_thing[state.model.geom_bodyid],
                 matter=Matter.of(state.model, state.world.scene.things),
-                bodies=Bodies.of(state.model, body_of),
+                bodies=Movers.of(state.model, body_of),
             )
         )
 

@@ -141,7 +141,7 @@ def _welded_pair(model: Any, found: ModelThings, equality: int) -> tuple[int, in
 def _sticking_rows(
     found: ModelThings, sticking: list[tuple[int, int]], stuck: BoolArray, contacts: Contacts
 ) -> Iterator[tuple[int, int, int, int]]:
-    """Yield bonds between each adhesive body and what it touches while its actuator pulls."""
+    """Yield joints between each adhesive body and what it touches while its actuator pulls."""
     for column, (_, body) in enumerate(sticking):
         holder = int(found.of_body[body])
         for other in _partners(contacts, holder):
@@ -153,7 +153,7 @@ def _sticking_rows(
 def _sticky_rows(
     found: ModelThings, contacts: Contacts, adhesive: BoolArray, tick_count: int
 ) -> Iterator[tuple[int, int, int, int]]:
-    """Yield bonds between things whose geoms are sticky by themselves."""
+    """Yield joints between things whose geoms are sticky by themselves."""
     pairs = sorted(set(zip(contacts.a[adhesive].tolist(), contacts.b[adhesive].tolist(), strict=True)))
     for a, b in pairs:
         mask = np.zeros(tick_count, dtype=np.bool_)

@@ -107,6 +107,10 @@ class State:
 
     def report(self, happening: Happening) -> None:
         """Tell the log that something has happened in this tick."""
+        count = len(self.scene.things)
+        for argument, index in happening.things.items():
+            if not 0 <= index < count:
+                raise ValueError(f"{happening.type}: {argument} is {index}, which is no index of the {count} things")
         self.happenings.append((self.tick, happening))
 
     def attribute(self, name: str, attribute: str) -> float:

@@ -18,7 +18,7 @@ BACK = np.array([1.0, -1.0, -1.0, -1.0])
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
-class Bodies:
+class Movers:
     """What the n things of a run are while the model stays the same."""
 
     free: BoolArray
@@ -37,12 +37,12 @@ class Bodies:
     """Main axes in the body's frame, unit quaternions, shape (n, 4)."""
 
     @classmethod
-    def of(cls, model: Any, body_of: IntArray) -> Bodies:
+    def of(cls, model: Any, body_of: IntArray) -> Movers:
         """Return the bodies of a model, of which ``body_of`` tells each thing's, 0 for none."""
         mass = np.where(body_of > 0, model.body_mass[body_of], 0.0)
         unjointed = np.zeros(model.nbody, dtype=np.bool_)
         unjointed[model.jnt_bodyid[model.jnt_type == int(mujoco.mjtJoint.mjJNT_FREE)]] = True
-        # What has parts on joints, as a bowl with walls that give way, stores energy in their springs.
+        # What has parts on joints, as a vessel with walls that give way, stores energy in their springs.
         jointed = np.bincount(model.body_rootid[model.body_dofnum > 0], minlength=model.nbody) > 1
         free = unjointed[body_of] & ~jointed[model.body_rootid[body_of]]
         return cls(
@@ -144,5 +144,5 @@ class Stretch:
     """First tick no longer."""
     matter: Matter
     """What can touch something meanwhile."""
-    bodies: Bodies
+    bodies: Movers
     """What moves freely meanwhile, and what is driven."""

@@ -179,7 +179,8 @@ def read_cells(documents: tuple[Document, ...], vocabulary: Vocabulary) -> Mappi
                     found = read_range(graph, filler, entry).points()
                 except KnowledgeError as error:
                     raise KnowledgeError(f"{document.path}: {error}") from None
-                points.setdefault(entry.name, set()).update(found)
+                # That a quantity is known at all is told by its cells, so there must be some.
+                points.setdefault(entry.name, set()).update(found or ((0.0,) if entry.kind == "quantity" else ()))
     return {
         name: _cells(vocabulary.properties[name], iri, points.get(name, set())) for name, iri in sorted(iris.items())
     }

@@ -79,6 +79,11 @@ def _property(document: Document, iri: URIRef) -> Property:
     unit, kind = "", "relation"
     if (iri, RDF.type, OWL.DatatypeProperty) in graph:
         kind = "truth" if (iri, RDFS.range, XSD.boolean) in graph else "text"
+        if kind == "text" and unit_node is None and {"double", "float", "decimal", "integer"} & {*ranges}:
+            raise KnowledgeError(
+                f"{document.where(iri)}: property {local_name(iri)} is a number without a unit; state qudt:hasUnit, "
+                "for a pure number unit:UNITLESS"
+            )
     if isinstance(unit_node, URIRef):
         symbol = qudt_symbol(local_name(unit_node))
         if symbol is None:

@@ -6,7 +6,7 @@ A folder may come from a stranger who has sealed it well, so nothing beyond this
 from __future__ import annotations
 
 import itertools
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from typing import Any
 
 import numpy as np
@@ -90,8 +90,30 @@ def check_types(happenings: Collection[str]) -> None:
     if len(happenings) > MOST_TYPES:
         raise ValueError(f"there are {len(happenings)} types of happenings; allowed: {MOST_TYPES}")
     for type in happenings:
-        if not (type.isascii() and type.isidentifier() and len(type) <= LONGEST_NAME):
-            raise ValueError(f"{brief(repr(type))} is no type of happenings; allowed: letters, digits and _")
+        check_name("type of happenings", type)
+
+
+def check_columns(what: str, names: Sequence[str]) -> None:
+    """Check names of columns of a table that has a column ``tick``, too.
+
+    Raises:
+        ValueError: If one is no plain name, or there twice.
+    """
+    for name in names:
+        check_name(f"column of {what}", name)
+    if len({*names, "tick"}) <= len(names):
+        raise ValueError(f"{what}: a column is there twice")
+
+
+def check_name(what: str, name: str) -> None:
+    """Check a name that is a column's or a part of a file's.
+
+    Raises:
+        ValueError: If it is no plain name.
+    """
+    if not (name.isascii() and name.isidentifier() and len(name) <= LONGEST_NAME):
+        allowed = f"at most {LONGEST_NAME} letters, digits and _"
+        raise ValueError(f"{brief(repr(name))} is no {what}; allowed: {allowed}")
 
 
 def _check_happenings(type: str, happenings: Happenings, ticks: int, count: int) -> None:
@@ -100,9 +122,10 @@ def _check_happenings(type: str, happenings: Happenings, ticks: int, count: int)
         _check_range(f"{type}s: {name}", column, 0, count)
     for name, column in happenings.numbers.items():
         _check_numbers(f"{type}s: {name}", column)
-    names = (*happenings.things, *happenings.numbers)
-    if type == DETACHMENT and names and sorted(names) != sorted(DETACHMENT_COLUMNS):
-        raise ValueError(f"{type}s have {brief_list(names)}; needed: {', '.join(DETACHMENT_COLUMNS)}")
+    things, numbers = DETACHMENT_COLUMNS
+    if type == DETACHMENT and ({*happenings.things} != {*things} or {*happenings.numbers} != {*numbers}):
+        needed = ", ".join((*things, *numbers))
+        raise ValueError(f"{type}s have {brief_list((*happenings.things, *happenings.numbers))}; needed: {needed}")
 
 
 def _check_things(things: tuple[Thing, ...]) -> None:
@@ -119,6 +142,14 @@ def _check_things(things: tuple[Thing, ...]) -> None:
     for thing in things:
         if thing.mount.to is not None and (thing.mount.to not in wholes or thing.mount.by != "joints"):
             raise ValueError(f"{thing.name}: hangs on {brief(thing.mount.to)}, which is no thing, or not by joints")
+    holders = {thing.name: thing.mount.to for thing in things}
+    for name in holders:
+        holder, seen = holders[name], {name}
+        while holder is not None:
+            if holder in seen:
+                raise ValueError(f"{name}: hangs on itself")
+            seen.add(holder)
+            holder = holders[holder]
     for thing in things:
         _check_numbers(f"{thing.name}: pose", np.array((*thing.position, *thing.orientation), dtype=np.float64))
         _check_shape(thing.name, thing.shape)

@@ -12,7 +12,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from prolepsis.geometry.shape import Geom, Hole, Shape, Surface, Triple
 from prolepsis.log import particle_tables, tables
-from prolepsis.log.checks import check_log, check_types
+from prolepsis.log.checks import check_columns, check_log, check_types
 from prolepsis.log.happenings import Happenings
 from prolepsis.log.log import Action, Log, Particles
 from prolepsis.log.sealed import read_sealed, read_text, write_json, write_sealed
@@ -146,6 +146,9 @@ def read_log_files(path: Path) -> Log:
         head = _Head.model_validate_json(read_text(path / HEAD))
         things = head.things
         check_types(head.happenings)
+        for type, each in head.happenings.items():
+            check_columns(f"{type}s", (*each.things, *each.numbers))
+        check_columns("particles", head.particles.columns if head.particles else ())
         reported = [_HAPPENINGS.format(type) for type in head.happenings]
         wet = (_FRAMES, _KINDS, _PLACES, *((_OWN,) if head.particles.columns else ())) if head.particles else ()
         names = (_TICKS, _POSES, _CONTACTS, _JOINTS, *reported, *wet)

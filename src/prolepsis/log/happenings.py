@@ -11,7 +11,7 @@ from prolepsis.geometry.shape import FloatArray, IntArray
 
 DETACHMENT = "detachment"
 """Type of what happens when a bond of something breakable gives way."""
-DETACHMENT_COLUMNS = ("thing", "a", "b", "force")
+DETACHMENT_COLUMNS = ("thing", "a", "b"), ("force",)
 """Its arguments - the whole and two of its pieces - and its number, a force [N]."""
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from prolepsis.log.things import Thing
 from prolepsis.programs.action import ACTIONS
-from prolepsis.robots.commands import ActionFailedError, Begin, Behaviour, End, Note, Sense, is_instant
+from prolepsis.robots.commands import ActionFailedError, Begin, Behaviour, End, Measured, Sense, is_instant
 from prolepsis.scene.scene import Scene
 from prolepsis.terms.terms import Term, Value
 
@@ -55,7 +55,7 @@ def as_event(
             raise
         first = False
         for note in made:
-            if isinstance(note, Note):
+            if isinstance(note, Measured):
                 evidence |= note.evidence
         sense = yield made
         for each in hands if not is_instant(made) else ():

@@ -18,12 +18,12 @@ class Program:
     begin: Callable[[Sense], Behaviour]
     """Makes the generator of commands."""
 
-    def start(self, sense: Sense) -> Running:
+    def start(self, sense: Sense) -> RunningProgram:
         """Return the running program, given what is sensed at the start."""
-        return Running(self.begin(sense))
+        return RunningProgram(self.begin(sense))
 
 
-class Running:
+class RunningProgram:
     """A started program: one step a tick."""
 
     def __init__(self, behaviour: Behaviour) -> None:

@@ -96,13 +96,13 @@ class End:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Note:
+class Measured:
     """What an action has measured, for its event."""
 
     evidence: Mapping[str, float | str]
 
 
-Command = HandTarget | ArmTarget | JointTarget | CloseGripper | OpenGripper | Begin | Note | End
+Command = HandTarget | ArmTarget | JointTarget | CloseGripper | OpenGripper | Begin | Measured | End
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)

@@ -20,7 +20,7 @@ from prolepsis.scene.shapes import SHAPES
 from prolepsis.scene.shapes.holes import refuse_holes
 from prolepsis.scene.shapes.mesh import mesh
 from prolepsis.system.threads import one_thread
-from prolepsis.terms.errors import KnowledgeError, brief_list
+from prolepsis.terms.errors import KnowledgeError, UnknownNameError, brief_list
 
 ROLES = frozenset({"Container", "Stuff", "Liquid", "Furniture", "Floor", "Table", "WetThing", "DirtyThing"})
 """Classes that physics or recognition goes by, whatever the kinds."""
@@ -47,6 +47,10 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
     if len(kb.objects) > MOST_INDIVIDUALS:
         raise KnowledgeError(f"the situation has {len(kb.objects)} individuals; allowed: {MOST_INDIVIDUALS}")
     kinds = sorted(kinds, key=lambda kind: kind.order)
+    for kind in kinds:
+        for name in (*kind.roles, *((kind.claims,) if kind.claims is not None else ())):
+            if name not in kb.vocabulary.classes:
+                raise UnknownNameError.of("class", name, kb.vocabulary.classes, type(kind).__name__)
     flowing = {name for kind in kinds for name in kind.flowing(kb)}
     names = [name for name in kb.objects if kb.whole(name) is None]
     wholes = [name for name in names if name not in flowing]
@@ -69,6 +73,11 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
         if name in below:
             under = made[below[name]].things if below[name] in made else ()
             thing = _put_on(thing, below[name], under, resting_height)
+        if thing.fixed and owners[name].claims is not None:
+            raise KnowledgeError(
+                f"{kb.place(name)}: {name} ({thing.kind}) is Furniture, which never moves, and {owners[name].claims}; "
+                "allowed: one of them"
+            )
         made[name] = owners[name].parts(individuals, thing)
     things = {name: each.things for name, each in made.items()}
     pools: tuple[Pool, ...] = ()
@@ -124,9 +133,6 @@ def _thing(kb: KnowledgeBase, name: str, roles: Roles, later: Collection[str] | 
     quantities = {p: float(k.value) for p, k in known.items() if isinstance(k.value, float)}
     quantities |= {feature: 1.0 for feature in FEATURES if feature in known and known[feature].value == "true"}
     quantities |= {attribute: 1.0 for attribute, cls in ATTRIBUTES.items() if kb.is_a(name, cls)}
-    wet = kb.default_of((f"Wet{kind}",), "friction") if f"Wet{kind}" in kb.vocabulary.classes else None
-    if wet is not None and isinstance(wet[1].value, float):
-        quantities["frictionWhenWet"] = wet[1].value
     fixed = kb.is_a(name, "Furniture")
     built = Shape() if later is None or shape in later else _built(kb, name, shape, quantities)
     if not fixed and built.geoms and "mass" not in quantities:

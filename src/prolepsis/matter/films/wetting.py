@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from prolepsis.log.things import friction_of
-from prolepsis.matter.films.nearby import solids_of, touched
 from prolepsis.scene.kind import Controller
+from prolepsis.scene.nearby import solids_of, touched
 from prolepsis.scene.running import Running
 
 LOOK_TICKS = 50

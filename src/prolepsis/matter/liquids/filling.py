@@ -9,11 +9,11 @@ from dataclasses import replace
 import numpy as np
 
 from prolepsis.geometry.hollows import Basin, space_of
+from prolepsis.geometry.packing import lattice, lowest, relaxed
 from prolepsis.geometry.shape import FloatArray, Geom, Shape
 from prolepsis.geometry.signed_distance import shifted
 from prolepsis.log.things import Thing
 from prolepsis.matter.liquids.liquids import Place
-from prolepsis.matter.liquids.packing import lattice, lowest, relaxed
 from prolepsis.matter.liquids.region import Region, box_of
 from prolepsis.scenario.scenario import FEWEST_PARTICLES, MOST_PARTICLES
 from prolepsis.scene.kind import RestingHeight

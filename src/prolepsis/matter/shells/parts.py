@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from prolepsis.geometry.packing import lattice
 from prolepsis.geometry.rotations import matrix, rotated
 from prolepsis.geometry.shape import FloatArray, Geom, Shape, Triple
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.log.things import WITHIN, Thing
-from prolepsis.matter.liquids.packing import lattice
 from prolepsis.matter.shells.cutting import CutShell, curvature_radius, ellipsoid_shell
 from prolepsis.scene.colours import colour_of
 from prolepsis.scene.kind import Individuals, Made
@@ -123,7 +123,10 @@ def shelled(individuals: Individuals, whole: Thing) -> Made:
 
 
 def _membrane(kb: KnowledgeBase, stuff: Thing) -> Membraned:
-    force, radius = kb.quantity(stuff.name, "membraneForce"), kb.quantity(stuff.name, "probeRadius")
+    force, radius = (kb.number(stuff.name, needed) for needed in ("membraneForce", "probeRadius"))
+    if force is None or radius is None:
+        where = f"{kb.place(stuff.name)}: {stuff.name} ({stuff.kind})"
+        raise KnowledgeError(f"{where} has a membrane; state its membraneForce and the probeRadius")
     return Membraned(name=stuff.name, force=force, probe_radius=radius)
 
 

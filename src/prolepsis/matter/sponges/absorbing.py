@@ -13,11 +13,11 @@ import numpy as np
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.log import FREE
 from prolepsis.log.things import Thing
-from prolepsis.matter.films.nearby import distance_to, solids_of
 from prolepsis.matter.sponges.carried_mass import CarriedMass
 from prolepsis.matter.sponges.sponge_law import SpongeLaw
 from prolepsis.matter.sponges.sponge_surface import SpongeSurface, nearest_of
 from prolepsis.scene.kind import Controller
+from prolepsis.scene.nearby import distance_to, solids_of
 from prolepsis.scene.particles import ParticleState
 from prolepsis.scene.running import MAX_STEP, Running
 

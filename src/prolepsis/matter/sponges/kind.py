@@ -9,6 +9,18 @@ from prolepsis.scene.kind import Controller, Kind
 from prolepsis.scene.running import Running
 from prolepsis.terms.errors import KnowledgeError
 
+NEEDED = (
+    "absorbentCapacity",
+    "drippingRetention",
+    "squeezedCapacity",
+    "youngsModulus",
+    "uptakeSpeed",
+    "pressingTime",
+    "recoveryTime",
+    "drippingTime",
+)
+"""What must be known of what absorbs."""
+
 
 class Sponges(Kind):
     """The kind of what absorbs."""
@@ -17,8 +29,10 @@ class Sponges(Kind):
     roles = frozenset({"Absorbent"})
 
     def refuse(self, kb: KnowledgeBase) -> None:
-        """Refuse what is told to be soaked without being told with what."""
+        """Refuse what is told to be soaked but not with what, and what absorbs but not how, or never moves."""
         for name in kb.objects:
+            if kb.is_a(name, "Absorbent"):
+                _refuse_unknown(kb, name)
             soaked = kb.number(name, "saturation")
             if soaked and not kb.objects_of("absorbs", name):
                 raise KnowledgeError(
@@ -32,7 +46,15 @@ class Sponges(Kind):
         from prolepsis.matter.sponges.absorbing import Absorbing
 
         things = state.scene.things
-        return [Absorbing(state, thing) for thing in things if "Absorbent" in thing.roles and not thing.fixed]
+        return [Absorbing(state, thing) for thing in things if "Absorbent" in thing.roles and thing.is_body]
+
+
+def _refuse_unknown(kb: KnowledgeBase, name: str) -> None:
+    unknown = [needed for needed in NEEDED if kb.number(name, needed) is None]
+    if unknown:
+        raise KnowledgeError(f"{kb.place(name)}: {name} ({kb.kind(name)}) absorbs, but has no {', '.join(unknown)}")
+    if kb.is_a(name, "Furniture"):
+        raise KnowledgeError(f"{kb.place(name)}: {name} ({kb.kind(name)}) is fixed, and what is fixed absorbs nothing")
 
 
 KIND = Sponges()

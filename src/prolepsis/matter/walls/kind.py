@@ -11,7 +11,7 @@ from prolepsis.scene.parts import Panel
 from prolepsis.scene.running import Running
 
 
-class Walls(Kind):
+class YieldingWalls(Kind):
     """The kind of vessels whose wall gives way."""
 
     order = 30
@@ -46,4 +46,4 @@ class Walls(Kind):
         return [Denting(name, [panel for panel in panels if panel.whole == name]) for name in wholes]
 
 
-KIND = Walls()
+KIND = YieldingWalls()

@@ -17,7 +17,7 @@ from prolepsis.programs.moving.following import go
 from prolepsis.programs.moving.grasping import CLEARANCE
 from prolepsis.programs.moving.holding import holding
 from prolepsis.programs.moving.two_hands import OTHER, HandPose, HeldOut, check_two_arms, hold_out
-from prolepsis.robots.commands import Behaviour, HandTarget, Note, Sense, Way, no_way
+from prolepsis.robots.commands import Behaviour, HandTarget, Measured, Sense, Way, no_way
 from prolepsis.scene.extent import extent_along
 from prolepsis.scene.parts import Kernel, Shard
 from prolepsis.scene.scene import Scene, reference_of
@@ -119,7 +119,7 @@ def peel(
     tried: set[str] = set()
     for done in range(round(tries) + 1):
         off = before - len(shelled.covered(sense))
-        sense = yield (Note(evidence={"pieces": before, "pieces_off": off, "tries": done}),)
+        sense = yield (Measured(evidence={"pieces": before, "pieces_off": off, "tries": done}),)
         if done == round(tries) or math.dist(sense.place(shelled.kernel.name), held.middle) > LOST:
             break
         found = _pinch(other, sense, shelled, held, reference, tried)

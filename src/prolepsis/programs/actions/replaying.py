@@ -24,7 +24,7 @@ from prolepsis.robots.commands import (
     Command,
     HandSense,
     HandTarget,
-    Note,
+    Measured,
     OpenGripper,
     Sense,
 )
@@ -137,7 +137,7 @@ def replay(scene: Scene, sense: Sense, *, hand: Thing, file: Path) -> Behaviour:
         sense = yield (target, *grips.get(k, ()))
         behind = max(behind, _refuse_behind(hand, sense, (k - len(course) + len(ticks)) * TICK))
     end = HandTarget(hand=hand.name, offset=triple(course[-1, :3]), rotation=triple(course[-1, 3:]))
-    return (yield (end, *([Note(evidence={"behind": behind})] if here.arm is not None else ())))
+    return (yield (end, *([Measured(evidence={"behind": behind})] if here.arm is not None else ())))
 
 
 def _replay_joints(hand: Thing, sense: Sense, recording: Recording, ticks: FloatArray) -> Behaviour:

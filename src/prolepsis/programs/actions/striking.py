@@ -13,7 +13,7 @@ from prolepsis.programs.actions.motion import stay, travel, travel_over
 from prolepsis.programs.moving.following import follow
 from prolepsis.programs.moving.grasping import as_seen
 from prolepsis.programs.moving.holding import free_pose, move_held, spots
-from prolepsis.robots.commands import ActionFailedError, Behaviour, HandTarget, Note, Sense
+from prolepsis.robots.commands import ActionFailedError, Behaviour, HandTarget, Measured, Sense
 from prolepsis.scene.extent import middle, support
 from prolepsis.scene.running import TICK
 from prolepsis.scene.scene import Scene, reference_of
@@ -77,7 +77,7 @@ def hit(
             raise ActionFailedError("missed", f"{object.name} did not meet {against.name}") from None
     here = sense.hands[hand.name]
     sense = yield (
-        Note(evidence={"speed": met}),
+        Measured(evidence={"speed": met}),
         HandTarget(hand=hand.name, offset=here.offset, rotation=here.rotation),
     )
     sense = yield from stay(0.05, sense)
@@ -164,5 +164,5 @@ def push_down(hand: Thing, sense: Sense, force: float, duration: float) -> Behav
         depth += sinking * TICK
         position: Triple = (start.offset[0], start.offset[1], start.offset[2] - depth)
         target = HandTarget(hand=hand.name, offset=position, velocity=(0.0, 0.0, -sinking), rotation=start.rotation)
-        sense = yield (target, Note(evidence={"force": greatest}))
+        sense = yield (target, Measured(evidence={"force": greatest}))
     return sense
