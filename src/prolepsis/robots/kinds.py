@@ -91,6 +91,6 @@ class Robots(Kind):
         start: dict[str, float] = {}
         for each in known:
             add_robot(building.spec, each.robot, scene.thing(each.name), arms)
-            rule_contacts(building, each.name)
+            rule_contacts(building, each.name, each.robot)
             start |= posture(each.robot, each.name, scene)
         return start

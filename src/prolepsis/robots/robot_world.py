@@ -43,12 +43,12 @@ def add_robot(spec: Any, robot: Robot, thing: Thing, arms: Sequence[str]) -> Non
     _let_arms_touch(spec, robot, thing.name, arms)
 
 
-def rule_contacts(building: Building, robot: str) -> None:
-    """Give the geoms of a robot and its grippers friction and softness."""
-    for thing in building.scene.things:
-        if thing.name.startswith(f"{robot}/") and thing.whole is not None:
-            for k in range(len(thing.shape.geoms)):
-                building.rule_contact(building.spec.geom(f"{thing.name}/{k}"), thing, rolls=False)
+def rule_contacts(building: Building, name: str, robot: Robot) -> None:
+    """Give the geoms of a robot called ``name`` and of its grippers friction and softness."""
+    for body in robot_model(robot).owner:
+        thing = building.scene.thing(f"{name}/{body}")
+        for k in range(len(thing.shape.geoms)):
+            building.rule_contact(building.spec.geom(f"{thing.name}/{k}"), thing, rolls=False)
 
 
 def posture(robot: Robot, name: str, scene: Scene) -> dict[str, float]:

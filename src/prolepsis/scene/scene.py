@@ -87,9 +87,8 @@ class Scene:
 
 def robot_of_gripper(scene: Scene, gripper: Thing) -> str | None:
     """Return the robot that a gripper is on, or None if it flies."""
-    links = scene.parts(gripper.name)
-    owner = links[0].name.split("/", 1)[0] if links else gripper.name
-    return owner if owner in scene.robots else None
+    owners = (part.name for part in scene.each(RobotPart) if any(arm.name == gripper.name for arm in part.robot.arms))
+    return next(owners, None)
 
 
 def reference_of(scene: Scene, gripper: Thing) -> Quaternion:
