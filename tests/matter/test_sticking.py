@@ -146,6 +146,6 @@ def test_a_wet_piece_sticks_to_a_wall_until_the_film_has_run_out(wet: bool) -> N
 
 
 def test_a_hold_weakens_with_time() -> None:
-    hold = AdhesiveJoint(holder=0, held=1, place=np.zeros(3), normal=np.zeros(3), strength=1.0, lasting=2.0, since=1.0)
+    hold = AdhesiveJoint(holder=0, held=1, point=np.zeros(3), normal=np.zeros(3), strength=1.0, lasting=2.0, since=1.0)
     assert hold.strength_at(1.0) == 1.0
     assert hold.strength_at(3.0) == pytest.approx(math.exp(-1.0))

@@ -50,7 +50,7 @@ class FakeHand:
             motion=self.motion,
         )
         return Sense(
-            time=time, hands={"hand1": hand}, place=lambda name: (0.0, 0.0, 0.722), orientation=lambda _: IDENTITY
+            time=time, hands={"hand1": hand}, position=lambda name: (0.0, 0.0, 0.722), orientation=lambda _: IDENTITY
         )
 
 

@@ -19,7 +19,7 @@ def _speed(state: Running, thing: Thing) -> float:
 
 
 def _height(state: Running, thing: Thing) -> float:
-    return state.place(thing.name)[2]
+    return state.position(thing.name)[2]
 
 
 CHANNELS = (

@@ -170,7 +170,7 @@ def _sense(state: State, controls: Controls, time: float) -> Sense:
     return Sense(
         time=time,
         hands=hands,
-        place=state.place,
+        position=state.position,
         orientation=state.orientation,
         pressing=state.pressing,
         cracked=lambda name: state.attribute(name, "broken") > 0.0,

@@ -153,7 +153,7 @@ class State:
         body = self.data.body(scene.things[carrier].name)
         return compose_pose(np.array([*body.xpos, *body.xquat]), self.offsets[i])
 
-    def place(self, name: str) -> Triple:
+    def position(self, name: str) -> Triple:
         """Return where a thing is in the world [m]; one that is no body any more is where it was at the start."""
         x, y, z = (float(value) for value in self.pose(name)[:3])
         return (x, y, z)
@@ -325,14 +325,14 @@ class State:
         self._rebuild()
         numbers = [int(self.model.equality(f"{JOINT}{k}").id) for k in range(len(joints))]
         for number, joint in zip(numbers, joints, strict=True):
-            self.move_joint(number, joint.place_on_first, joint.place_on_second)
+            self.move_joint(number, joint.point_on_first, joint.point_on_second)
         mujoco.mj_forward(self.model, self.data)
         return numbers
 
-    def move_joint(self, number: int, place_on_first: FloatArray, place_on_second: FloatArray) -> None:
+    def move_joint(self, number: int, point_on_first: FloatArray, point_on_second: FloatArray) -> None:
         """Let a joint at a point hold other points of its bodies together, each in the frame of its body [m]."""
         # Compiling puts the second point where it would be in the first posture.
-        self.model.eq_data[number, :3], self.model.eq_data[number, 3:6] = place_on_first, place_on_second
+        self.model.eq_data[number, :3], self.model.eq_data[number, 3:6] = point_on_first, point_on_second
 
     def joint_forces(self) -> dict[int, FloatArray]:
         """Return the force of each active joint at a point on its first body, world frame [N], by its number."""

@@ -18,9 +18,9 @@ class Part:
 
     shape: Shape
     """The shape in the thing's own frame."""
-    shift: FloatArray
+    displacement: FloatArray
     """Origin of the thing's frame in the body's [m], shape (3,)."""
-    turn: FloatArray
+    rotation: FloatArray
     """Rotation from the thing's frame to the body's, shape (3, 3)."""
     solids: tuple[Solid, ...]
     """Its convex solids, in the body's frame."""
@@ -42,7 +42,7 @@ class Part:
         else:
             corners = np.concatenate([np.stack(solid.bounds()) for solid in self.solids])
             return corners.min(axis=0), corners.max(axis=0)
-        placed = corners @ self.turn.T + self.shift
+        placed = corners @ self.rotation.T + self.displacement
         return placed.min(axis=0), placed.max(axis=0)
 
 
@@ -105,23 +105,23 @@ def _parts(observation: Observation, body: int, parts: tuple[int, ...], tick: in
     for part in parts:
         shape = observation.log.things[part].shape
         solids = bounded(shape)
-        shift, turn = np.zeros(3), np.eye(3)
+        displacement, rotation = np.zeros(3), np.eye(3)
         if part != body:
             here = observation.log.poses[tick, part]
-            shift = rotate_back(pose[3:], here[:3] - pose[:3])
-            turn = matrix(multiply(pose[3:] * np.array([1.0, -1.0, -1.0, -1.0]), here[3:]))
-            solids = tuple(_placed(solid, shift, turn) for solid in solids)
+            displacement = rotate_back(pose[3:], here[:3] - pose[:3])
+            rotation = matrix(multiply(pose[3:] * np.array([1.0, -1.0, -1.0, -1.0]), here[3:]))
+            solids = tuple(_placed(solid, displacement, rotation) for solid in solids)
         if solids or shape.profile or shape.surface is not None:
-            found.append(Part(shape=shape, shift=shift, turn=turn, solids=solids))
+            found.append(Part(shape=shape, displacement=displacement, rotation=rotation, solids=solids))
     return tuple(found)
 
 
-def _placed(solid: Solid, shift: FloatArray, turn: FloatArray) -> Solid:
+def _placed(solid: Solid, displacement: FloatArray, rotation: FloatArray) -> Solid:
     return Solid(
         type=solid.type,
         size=solid.size,
-        position=shift + turn @ solid.position,
-        rotation=turn @ solid.rotation,
+        position=displacement + rotation @ solid.position,
+        rotation=rotation @ solid.rotation,
         geom=solid.geom,
         corners=solid.corners,
     )

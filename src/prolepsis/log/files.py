@@ -129,8 +129,8 @@ def _tables_of(log: Log) -> Iterator[tuple[str, tables.Columns, tables.Kinds]]:
     if _has_particles(log):
         yield _FRAMES, particle_tables.frame_columns(log.particles), particle_tables.FRAMES
         yield _KINDS, particle_tables.kind_columns(log.particles), particle_tables.KINDS
-        places = particle_tables.place_columns(log.particles)
-        yield _PLACES, places, particle_tables.place_kinds(places)
+        places = particle_tables.position_columns(log.particles)
+        yield _PLACES, places, particle_tables.position_kinds(places)
         if log.particles.columns:
             own = particle_tables.own_columns(log.particles)
             yield _OWN, own, dict.fromkeys(own, "float")

@@ -46,7 +46,7 @@ def kind_columns(particles: Particles) -> Mapping[str, Column]:
     return {"stuff": particles.stuff, "mass": particles.mass, "volume": particles.volume}
 
 
-def place_columns(particles: Particles) -> Mapping[str, Column]:
+def position_columns(particles: Particles) -> Mapping[str, Column]:
     """Return positions and holders as long columns: all frames of particle 0, then of particle 1 ..."""
     frames, count, _ = particles.position.shape
     number: IntArray = np.arange(count, dtype=np.int64).repeat(frames)
@@ -64,7 +64,7 @@ def own_columns(particles: Particles) -> Mapping[str, Column]:
     return {name: column.T.reshape(-1) for name, column in sorted(particles.columns.items())}
 
 
-def place_kinds(columns: Mapping[str, Column]) -> Mapping[str, str]:
+def position_kinds(columns: Mapping[str, Column]) -> Mapping[str, str]:
     """Return what the columns of ``place_columns`` consist of."""
     return WHOLE_PLACES if _WHOLE_AXES[0] in columns else FINE_PLACES
 

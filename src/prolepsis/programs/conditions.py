@@ -43,7 +43,7 @@ def _holding(sense: Sense, *, hand: Thing) -> bool:
 
 
 def _above(sense: Sense, *, object: Thing, height: float) -> bool:
-    return sense.place(object.name)[2] > height
+    return sense.position(object.name)[2] > height
 
 
 def _cracked(sense: Sense, *, object: Thing) -> bool:

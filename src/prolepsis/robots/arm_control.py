@@ -9,7 +9,7 @@ import numpy as np
 from prolepsis.geometry.rotations import angles_of, compose_pose, relative_pose, turned
 from prolepsis.geometry.shape import FloatArray, Quaternion, Triple, quaternion, triple
 from prolepsis.log.things import Thing
-from prolepsis.robots.arm_way import ArmWays, name_of
+from prolepsis.robots.arm_paths import ArmPaths, name_of
 from prolepsis.robots.commands import ArmTarget, Command, HandSense, HandTarget
 from prolepsis.robots.effectors.kind import KINDS, EffectorControl
 from prolepsis.robots.inverse import ArmKinematics
@@ -59,7 +59,7 @@ class ArmHand:
         self._offset: Triple = (0.0, 0.0, 0.0)
         self._turn: Triple = angles_of(reference, quaternion(first[3:]))
         self._turned = (self._turn, turned(reference, self._turn))
-        self.ways = ArmWays(self._kinematics, self._arm, gap, self._first, reference, mount, palm)
+        self.ways = ArmPaths(self._kinematics, self._arm, gap, self._first, reference, mount, palm)
         self._stiffness = float(1.0 / np.linalg.eigvalsh(self._compliance())[-1])
         self.bind(state)
 

@@ -106,7 +106,7 @@ Command = HandTarget | ArmTarget | JointTarget | CloseGripper | OpenGripper | Be
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
-class Way:
+class JointPath:
     """How an arm gets somewhere, or why it does not."""
 
     joints: FloatArray
@@ -117,7 +117,7 @@ class Way:
     """How far it stays away, or what is in the way."""
 
 
-def no_way(first: Way | None, what: str, otherwise: str) -> ActionFailedError:
+def no_joint_path(first: JointPath | None, what: str, otherwise: str) -> ActionFailedError:
     """Return why ``what`` cannot be done: what stood in the first way that was looked at, or ``otherwise`` if none."""
     if first is None:
         return ActionFailedError("unreachable", f"{what}: {otherwise}")
@@ -158,7 +158,7 @@ class ArmSense(Protocol):
         """Return place and turn of the hand with the given coordinates [rad], shape (n,)."""
         ...
 
-    def path(self, offsets: FloatArray, rotations: FloatArray, *, loose: bool = False) -> Way:
+    def path(self, offsets: FloatArray, rotations: FloatArray, *, loose: bool = False) -> JointPath:
         """Return the joints along places and turns one after the other, each shape (k, 3), from where they are;
         ``loose`` turns may be off about the vertical where an arm of five joints cannot have them."""
         ...
@@ -170,7 +170,7 @@ class ArmSense(Protocol):
         ignoring: Collection[str],
         opening: float | None = None,
         held: str | None = None,
-    ) -> Way:
+    ) -> JointPath:
         """Return how the hand gets to a place by any way on which nothing is touched, but by its fingers what is
         ignored; with its pads ``opening`` [m] apart, or as they are, and with what it holds."""
         ...
@@ -267,7 +267,7 @@ class Sense:
     """[s]"""
     hands: Mapping[str, HandSense]
     """Each hand's own sense."""
-    place: Callable[[str], Triple]
+    position: Callable[[str], Triple]
     """Position of a thing in the world [m], as a perfect camera would see it."""
     orientation: Callable[[str], Quaternion]
     """Unit quaternion (w, x, y, z) of a thing in the world, seen likewise."""

@@ -43,9 +43,9 @@ class PointJoint:
 
     first: str
     second: str
-    place_on_first: FloatArray
+    point_on_first: FloatArray
     """The point in the frame of the first body [m], shape (3,)."""
-    place_on_second: FloatArray
+    point_on_second: FloatArray
     """The point in the frame of the second body [m], shape (3,)."""
 
 
@@ -100,7 +100,7 @@ class Running(Protocol):
         """Return where a thing is and how it is turned, shape (7,); one that is no body any more is as at the start."""
         ...
 
-    def place(self, name: str) -> Triple:
+    def position(self, name: str) -> Triple:
         """Return where a thing is in the world [m]."""
         ...
 
@@ -144,7 +144,7 @@ class Running(Protocol):
         """Hold bodies together at points, and return the numbers of the joints."""
         ...
 
-    def move_joint(self, number: int, place_on_first: FloatArray, place_on_second: FloatArray) -> None:
+    def move_joint(self, number: int, point_on_first: FloatArray, point_on_second: FloatArray) -> None:
         """Let a joint hold other points of its bodies together [m]."""
         ...
 

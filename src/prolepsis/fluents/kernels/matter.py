@@ -25,6 +25,6 @@ def assembled(parts: Sequence[Part], *, plugged: bool = False) -> Solids:
 def _placed(part: Part, *, plugged: bool) -> Solids:
     solids = solids_as_arrays(replace(part.shape, holes=()) if plugged else part.shape)
     frame = np.empty_like(solids.frame)
-    frame[:, :3] = solids.frame[:, :3] @ part.turn.T + part.shift
-    frame[:, 3:] = (part.turn @ solids.frame[:, 3:].reshape(-1, 3, 3)).reshape(-1, 9)
+    frame[:, :3] = solids.frame[:, :3] @ part.rotation.T + part.displacement
+    frame[:, 3:] = (part.rotation @ solids.frame[:, 3:].reshape(-1, 3, 3)).reshape(-1, 9)
     return solids._replace(frame=frame)

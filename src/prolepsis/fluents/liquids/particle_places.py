@@ -295,6 +295,6 @@ def _planes(observation: Observation) -> list[RigidShape]:
     found: list[RigidShape] = []
     for i, thing in enumerate(observation.log.things):
         if thing.shape.geoms and all(geom.type == "plane" for geom in thing.shape.geoms):
-            part = Part(shape=thing.shape, shift=np.zeros(3), turn=np.eye(3), solids=())
+            part = Part(shape=thing.shape, displacement=np.zeros(3), rotation=np.eye(3), solids=())
             found.append(RigidShape(body=i, solids=(), parts=(part,), during=every))
     return found

@@ -32,7 +32,7 @@ class AdhesiveJoint:
     """Index of the thing that holds."""
     held: int
     """Index of the thing that is held."""
-    place: FloatArray
+    point: FloatArray
     """Point where it sticks, in the frame of the held [m], shape (3,)."""
     normal: FloatArray
     """Unit vector out of the holder's surface there, in the holder's frame, shape (3,)."""
@@ -48,7 +48,7 @@ class AdhesiveJoint:
     """Mean pull of late [N]."""
     loose: bool = False
     """Whether it slides now, so that no joint holds."""
-    place_on_holder: FloatArray | None = None
+    point_on_holder: FloatArray | None = None
     """The same point in the frame of the holder [m], shape (3,); None until they have been joined."""
 
     def strength_at(self, time: float) -> float:
@@ -114,21 +114,21 @@ class Adhesion(Controller):
 
     def _renew(self, state: Running, hold: AdhesiveJoint) -> None:
         """Let a hold be where the two things are now, without strain."""
-        hold.place_on_holder = self._seen_from_holder(state, hold)
+        hold.point_on_holder = self._seen_from_holder(state, hold)
         number = next(k for k, joined in enumerate(self._joined) if joined is hold)
         state.move_joint(self._numbers[number], *self._places(state, hold))
 
     def _join(self, state: Running) -> None:
         """Make the joints anew."""
         for hold in self.holds:
-            if hold.place_on_holder is None:
-                hold.place_on_holder = self._seen_from_holder(state, hold)
+            if hold.point_on_holder is None:
+                hold.point_on_holder = self._seen_from_holder(state, hold)
         self._joined = [hold for hold in self.holds if state.carrier[hold.holder] != state.carrier[hold.held]]
         joints: list[PointJoint] = []
         for hold in self._joined:
             first, second = (self._carrier(state, thing) for thing in (hold.holder, hold.held))
             place, other = self._places(state, hold)
-            joints.append(PointJoint(first=first, second=second, place_on_first=place, place_on_second=other))
+            joints.append(PointJoint(first=first, second=second, point_on_first=place, point_on_second=other))
         self._numbers = state.join(joints)
         for number, hold in zip(self._numbers, self._joined, strict=True):
             state.data.eq_active[number] = not hold.loose
@@ -141,11 +141,11 @@ class Adhesion(Controller):
 
     def _places(self, state: Running, hold: AdhesiveJoint) -> tuple[FloatArray, FloatArray]:
         """Return the point of a hold in the frames of the two bodies [m]."""
-        assert hold.place_on_holder is not None
+        assert hold.point_on_holder is not None
         first, second = state.offsets[hold.holder], state.offsets[hold.held]
         return (
-            first[:3] + matrix(first[3:]) @ hold.place_on_holder,
-            second[:3] + matrix(second[3:]) @ hold.place,
+            first[:3] + matrix(first[3:]) @ hold.point_on_holder,
+            second[:3] + matrix(second[3:]) @ hold.point,
         )
 
     def _carrier(self, state: Running, thing: int) -> str:
@@ -157,5 +157,5 @@ class Adhesion(Controller):
     def _seen_from_holder(self, state: Running, hold: AdhesiveJoint) -> FloatArray:
         things = state.scene.things
         held, holder = state.pose(things[hold.held].name), state.pose(things[hold.holder].name)
-        world = held[:3] + matrix(held[3:]) @ hold.place
+        world = held[:3] + matrix(held[3:]) @ hold.point
         return (world - holder[:3]) @ matrix(holder[3:])

@@ -78,7 +78,7 @@ class Sticking(Adhesion):
                     AdhesiveJoint(
                         holder=kernel,
                         held=piece,
-                        place=np.zeros(3),
+                        point=np.zeros(3),
                         normal=out / np.linalg.norm(out),
                         strength=known.adhesion * shard.area,
                     )
@@ -137,7 +137,7 @@ class Sticking(Adhesion):
         hold = AdhesiveJoint(
             holder=holder,
             held=piece,
-            place=(point - pose[:3]) @ matrix(pose[3:]),
+            point=(point - pose[:3]) @ matrix(pose[3:]),
             normal=out @ matrix(base[3:]),
             strength=strength,
             slides=True,

@@ -21,7 +21,7 @@ from prolepsis.programs.moving.grasping import (
     least_width,
 )
 from prolepsis.programs.moving.profile import PEAK_ACCELERATION, PEAK_SPEED, least_jerk
-from prolepsis.robots.commands import ActionFailedError, Behaviour, HandTarget, OpenGripper, Sense, Way
+from prolepsis.robots.commands import ActionFailedError, Behaviour, HandTarget, JointPath, OpenGripper, Sense
 from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.scene.extent import extent_along
 from prolepsis.scene.scene import Scene, reference_of, robot_of_gripper
@@ -142,7 +142,7 @@ def _reach_by_arm(
     """Move round the object from the first direction from which the arm can."""
     arm = sense.hands[hand.name].arm
     assert arm is not None
-    first: Way | None = None
+    first: JointPath | None = None
     for pose in grasp_poses(hand, object, sense, height, arm, reference, short):
         width = max(min(pose.width + MARGIN, hand.quantities["maxOpening"]), sense.hands[hand.name].opening)
         # Only the last stretch is straight: before it, the object is in the way as anything is.

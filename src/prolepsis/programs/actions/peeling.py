@@ -17,7 +17,7 @@ from prolepsis.programs.moving.following import go
 from prolepsis.programs.moving.grasping import CLEARANCE
 from prolepsis.programs.moving.holding import holding
 from prolepsis.programs.moving.two_hands import OTHER, HandPose, HeldOut, check_two_arms, hold_out
-from prolepsis.robots.commands import Behaviour, HandTarget, Measured, Sense, Way, no_way
+from prolepsis.robots.commands import Behaviour, HandTarget, JointPath, Measured, Sense, no_joint_path
 from prolepsis.scene.extent import extent_along
 from prolepsis.scene.parts import Kernel, Shard
 from prolepsis.scene.scene import Scene, reference_of
@@ -62,12 +62,12 @@ class _Shelled:
 
     def seen(self, sense: Sense) -> Thing:
         """Return the whole where its kernel is now."""
-        position, orientation = sense.place(self.kernel.name), sense.orientation(self.kernel.name)
+        position, orientation = sense.position(self.kernel.name), sense.orientation(self.kernel.name)
         return replace(self.object, position=position, orientation=orientation)
 
     def outward(self, sense: Sense, piece: Thing) -> FloatArray:
         """Return the displacement from the kernel's middle to a piece [m], shape (3,)."""
-        return np.subtract(sense.place(piece.name), sense.place(self.kernel.name))
+        return np.subtract(sense.position(piece.name), sense.position(self.kernel.name))
 
     def covered(self, sense: Sense) -> list[Thing]:
         """Return the pieces that are still where they were on the kernel."""
@@ -120,13 +120,15 @@ def peel(
     for done in range(round(tries) + 1):
         off = before - len(shelled.covered(sense))
         sense = yield (Measured(evidence={"pieces": before, "pieces_off": off, "tries": done}),)
-        if done == round(tries) or math.dist(sense.place(shelled.kernel.name), held.middle) > LOST:
+        if done == round(tries) or math.dist(sense.position(shelled.kernel.name), held.middle) > LOST:
             break
         found = _pinch(other, sense, shelled, held, reference, tried)
         if not isinstance(found, _Pinch):
             if done or not before:
                 break
-            raise no_way(found, f"shell of {object.name} by {other.name}", f"all of it is at the pads of {hand.name}")
+            raise no_joint_path(
+                found, f"shell of {object.name} by {other.name}", f"all of it is at the pads of {hand.name}"
+            )
         tried.add(found.piece)
         sense = yield from _pull(other, sense, shelled, held, found, reference, force)
         if before - len(shelled.covered(sense)) > off:
@@ -136,14 +138,14 @@ def peel(
 
 def _pinch(
     other: Thing, sense: Sense, shelled: _Shelled, held: HeldOut, reference: Quaternion, tried: set[str]
-) -> _Pinch | Way | None:
+) -> _Pinch | JointPath | None:
     """Return the first pinch of a piece that is still on the kernel to which the arm gets; else why not to the first.
 
     None if no piece is left that is not at the first hand's pads.
     """
     there = sense.hands[other.name]
     assert there.arm is not None
-    first: Way | None = None
+    first: JointPath | None = None
     pieces = [piece for piece in shelled.covered(sense) if piece.name not in tried]
     outward = {piece.name: shelled.outward(sense, piece) for piece in pieces}
     for name in sorted(outward, key=lambda name: abs(float(outward[name] @ held.across) - BEST)):
@@ -201,13 +203,13 @@ def _pull(
     sense = yield from go(other, sense, triple(np.add(offset, away)), rotation, ())
     sense = yield from travel(other, sense, triple(np.negative(away)), 1.0, APPROACH_SPEED)
     sense = yield from close_from(other, pinch.width + CLEARANCE, force, sense)
-    start = sense.place(shelled.kernel.name)
+    start = sense.position(shelled.kernel.name)
     pulling = travel(other, sense, away, 1.0, DRAW_SPEED)
     made = next(pulling)
     while True:
         try:
             sense = yield made
-            if math.dist(sense.place(shelled.kernel.name), start) > SLIPPED:
+            if math.dist(sense.position(shelled.kernel.name), start) > SLIPPED:
                 break
             made = pulling.send(sense)
         except StopIteration as ended:

@@ -123,7 +123,7 @@ def _lean(orientation: Quaternion, level: FloatArray) -> float:
 def _points(sense: Sense, things: Sequence[Thing]) -> FloatArray:
     """Return points on things where they are now, in the world [m], shape (n, 3)."""
     return np.concatenate(
-        [outline(t) @ matrix(sense.orientation(t.name)).T + np.asarray(sense.place(t.name)) for t in things]
+        [outline(t) @ matrix(sense.orientation(t.name)).T + np.asarray(sense.position(t.name)) for t in things]
     )
 
 

@@ -19,7 +19,7 @@ from prolepsis.programs.moving.grasping import CLEARANCE, STANDOFF, as_seen
 from prolepsis.programs.moving.holding import holding
 from prolepsis.programs.moving.profile import least_jerk
 from prolepsis.programs.moving.two_hands import OTHER, SHORTS, HandPose, HeldOut, check_two_arms, hold_out
-from prolepsis.robots.commands import Behaviour, Command, Sense, Way, no_way
+from prolepsis.robots.commands import Behaviour, Command, JointPath, Sense, no_joint_path
 from prolepsis.scene.extent import extent_along, support
 from prolepsis.scene.scene import Scene, reference_of
 
@@ -63,7 +63,7 @@ def _take(other: Thing, sense: Sense, object: Thing, held: HeldOut, reference: Q
     assert there.arm is not None
     width = extent_along(as_seen(object, sense), held.pinch)
     opening = min(width + MARGIN, other.quantities["maxOpening"])
-    first: Way | None = None
+    first: JointPath | None = None
     for short in SHORTS:
         for second in held.second(short, there.arm.held_at(width)):
             offset, rotation = second.seen(there, reference)
@@ -81,7 +81,7 @@ def _take(other: Thing, sense: Sense, object: Thing, held: HeldOut, reference: Q
                 sense = yield from close_from(other, width + CLEARANCE, force, sense)
                 return second, sense
             first = first or found
-    raise no_way(first, f"the free end of {object.name} by {other.name}", "there is none")
+    raise no_joint_path(first, f"the free end of {object.name} by {other.name}", "there is none")
 
 
 def _draw_apart(

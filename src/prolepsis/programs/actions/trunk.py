@@ -71,7 +71,7 @@ def look_at(scene: Scene, sense: Sense, *, robot: Thing, object: Thing) -> Behav
     """Turn the head so that the camera looks at an object."""
     del scene
     here = sense.robots[robot.name]
-    x, y, z = (there - at for there, at in zip(sense.place(object.name), here.neck, strict=True))
+    x, y, z = (there - at for there, at in zip(sense.position(object.name), here.neck, strict=True))
     pan = (math.atan2(y, x) - here.yaw + math.pi) % (2 * math.pi) - math.pi
     goals = dict(zip(here.head, (pan, math.atan2(-z, math.hypot(x, y))), strict=True))
     _refuse_beyond(robot, here, goals, object)

@@ -10,7 +10,7 @@ import numpy as np
 from prolepsis.geometry.shape import FloatArray, Triple, triple
 from prolepsis.log.things import Thing
 from prolepsis.programs.moving.profile import least_jerk, least_time
-from prolepsis.robots.commands import ActionFailedError, ArmSense, ArmTarget, Behaviour, HandTarget, Sense, Way
+from prolepsis.robots.commands import ActionFailedError, ArmSense, ArmTarget, Behaviour, HandTarget, JointPath, Sense
 from prolepsis.scene.running import TICK
 
 KNOTS = 40
@@ -106,7 +106,7 @@ def _target(hand: Thing, joints: FloatArray, rates: FloatArray, offset: object, 
     )
 
 
-def _refuse(hand: Thing, path: Way) -> None:
+def _refuse(hand: Thing, path: JointPath) -> None:
     if path.problem:
         raise ActionFailedError(path.problem, f"{hand.name}: {path.detail}")
 

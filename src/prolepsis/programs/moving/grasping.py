@@ -60,7 +60,7 @@ class GraspPose:
 
 def as_seen(object: Thing, sense: Sense) -> Thing:
     """Return an object where it is now."""
-    return replace(object, position=sense.place(object.name), orientation=sense.orientation(object.name))
+    return replace(object, position=sense.position(object.name), orientation=sense.orientation(object.name))
 
 
 def grasping_width(orientation: Quaternion, object: Thing) -> float:

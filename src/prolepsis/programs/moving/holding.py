@@ -14,7 +14,7 @@ from prolepsis.log.things import Thing
 from prolepsis.programs.moving.following import follow, go
 from prolepsis.programs.moving.grasping import as_seen, wrapped, yaw_of
 from prolepsis.programs.moving.profile import PEAK_SPEED, least_jerk
-from prolepsis.robots.commands import ActionFailedError, Behaviour, HandSense, Sense, Way, no_way
+from prolepsis.robots.commands import ActionFailedError, Behaviour, HandSense, JointPath, Sense, no_joint_path
 from prolepsis.scene.extent import middle, support
 from prolepsis.terms.errors import PlanError
 
@@ -124,7 +124,7 @@ def free_pose(
         ActionFailedError: If there is none.
     """
     here, seen = holding(hand, held, sense), as_seen(held, sense)
-    first: Way | None = None
+    first: JointPath | None = None
     for spot in sorted(spots(as_seen(against, sense), part), key=lambda each: _away(here, each)):
         for offset, rotation in hand_poses(here, seen, spot, reference):
             if here.arm is None:
@@ -138,7 +138,7 @@ def free_pose(
             else:
                 return offset, rotation
     reason = f"{held.name} to the {part} of {against.name} by {hand.name}"
-    raise no_way(first, reason, "the hand would point backwards")
+    raise no_joint_path(first, reason, "the hand would point backwards")
 
 
 def _away(hand: HandSense, spot: Spot) -> float:

@@ -14,7 +14,7 @@ from prolepsis.log.things import Thing
 from prolepsis.programs.action import ParameterSpec
 from prolepsis.programs.moving.following import go
 from prolepsis.programs.moving.grasping import longest_axis, yaw_of
-from prolepsis.robots.commands import Command, HandSense, Sense, Way, no_way
+from prolepsis.robots.commands import Command, HandSense, JointPath, Sense, no_joint_path
 from prolepsis.scene.extent import middle
 from prolepsis.scene.scene import Scene, robot_of_gripper
 from prolepsis.terms.errors import PlanError
@@ -134,7 +134,7 @@ def hold_out(
     """
     here, there = sense.hands[hand.name], sense.hands[other.name]
     assert here.arm is not None and there.arm is not None
-    first: Way | None = None
+    first: JointPath | None = None
     for held in holds(here, there, seen, reference):
         pose = held.first.seen(here, reference)
         found = here.arm.way(*pose, touching, held=seen.name)
@@ -147,4 +147,4 @@ def hold_out(
                     return held, sense
         first = first or found
     what = f"{seen.name} between {hand.name} and {other.name}"
-    raise no_way(first, what, f"{hand.name} cannot hold it out from above")
+    raise no_joint_path(first, what, f"{hand.name} cannot hold it out from above")

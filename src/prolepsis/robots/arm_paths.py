@@ -9,7 +9,7 @@ import numpy as np
 
 from prolepsis.geometry.rotations import angles_of, compose_pose, inverse, relative_pose, rotated, turned
 from prolepsis.geometry.shape import FloatArray, IntArray, Quaternion, Triple
-from prolepsis.robots.commands import Way
+from prolepsis.robots.commands import JointPath
 from prolepsis.robots.effectors.gap import Gap
 from prolepsis.robots.inverse import ArmKinematics, Found
 from prolepsis.scene.robot import Arm
@@ -30,7 +30,7 @@ MARGIN, AT_THE_END = 0.1, 3.0
 """A joint nearer to the end of its range [rad] adds this to how uneasy a posture is [rad^2]: no hand goes on evenly."""
 
 
-class ArmWays:
+class ArmPaths:
     """What a program may ask of one arm."""
 
     def __init__(
@@ -93,7 +93,7 @@ class ArmWays:
         x, y, z = self._first
         return (pose[0] - x, pose[1] - y, pose[2] - z), angles_of(self._reference, (pose[3], pose[4], pose[5], pose[6]))
 
-    def path(self, offsets: FloatArray, rotations: FloatArray, *, loose: bool = False) -> Way:
+    def path(self, offsets: FloatArray, rotations: FloatArray, *, loose: bool = False) -> JointPath:
         """Return the joints along places and turns, each shape (k, 3); ``loose`` turns may be off about the vertical
         where an arm of five joints cannot have them."""
         joints: list[FloatArray] = []
@@ -104,10 +104,10 @@ class ArmWays:
             if loose and not found.is_there and not self.turns_freely:
                 found = self._kinematics.solve(pose, now, near=now, any_yaw=True)
             if not found.is_there:
-                return Way(joints=np.array(joints), problem="unreachable", detail=_short_by(found))
+                return JointPath(joints=np.array(joints), problem="unreachable", detail=_short_by(found))
             now = found.joints
             joints.append(now)
-        return Way(joints=np.array(joints))
+        return JointPath(joints=np.array(joints))
 
     def way(
         self,
@@ -116,7 +116,7 @@ class ArmWays:
         ignoring: Collection[str],
         opening: float | None = None,
         held: str | None = None,
-    ) -> Way:
+    ) -> JointPath:
         """Return how the hand gets to a place by any way on which nothing is touched, but by its fingers what is
         ignored; with its pads ``opening`` [m] apart, or as they are, and with what it holds."""
         assert self._state is not None
@@ -139,13 +139,13 @@ class ArmWays:
             for postures in self._courses(joints, np.asarray(offset), np.asarray(rotation)):
                 hit = self._touched_on(postures, ignoring)
                 if not hit:
-                    return Way(joints=np.array(postures))
+                    return JointPath(joints=np.array(postures))
                 blocked = hit
         nowhere = np.zeros((0, len(self.joints)))
         if blocked:
-            return Way(joints=nowhere, problem="in_collision", detail=blocked)
+            return JointPath(joints=nowhere, problem="in_collision", detail=blocked)
         assert nearest is not None
-        return Way(joints=nowhere, problem="unreachable", detail=_short_by(nearest))
+        return JointPath(joints=nowhere, problem="unreachable", detail=_short_by(nearest))
 
     def _hold(self, name: str | None) -> None:
         """Take the thing called ``name``, if it is a body, along in the search."""
