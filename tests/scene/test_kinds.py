@@ -17,7 +17,7 @@ from prolepsis.engine.world import compile_world
 from prolepsis.log.files import read_log, write_log
 from prolepsis.log.happenings import Happening
 from prolepsis.log.log import Log
-from prolepsis.log.things import FREE, jointed
+from prolepsis.log.things import FREE, Thing, jointed, own_solids
 from prolepsis.matter.kinds import known_kinds
 from prolepsis.programs import read_program
 from prolepsis.scene.compose import compose
@@ -178,3 +178,13 @@ def test_what_has_a_membrane_must_say_how_strong_it_is() -> None:
         KnowledgeError, match="w .EggWhite. has a membrane; state its membraneForce and the probeRadius"
     ):
         scene(FLOOR + white)
+
+
+def test_a_solid_is_a_part_s_only_where_it_is_that_part_s() -> None:
+    known = scene(FLOOR + ":bowl1 a :PaperBowl ; :on :floor .")
+    own = own_solids(known.things)
+    assert own["bowl1"] == (0,)  # the foot; the wall is the panels'
+    assert len(own["bowl1/panel0"]) == len(known.thing("bowl1/panel0").shape.geoms)
+    link = Thing(name="arm", kind="Thing", shape=known.thing("bowl1/panel0").shape, mount=jointed())
+    next_link = replace(link, name="arm/next", whole="arm", position=(0.3, 0.0, 0.0), mount=jointed("arm"))
+    assert own_solids((link, next_link))["arm"] == tuple(range(len(link.shape.geoms)))

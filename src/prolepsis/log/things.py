@@ -6,11 +6,11 @@ containment, rendering and logs of other origin share it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
-from prolepsis.geometry.shape import IDENTITY, Quaternion, Shape, Triple
+from prolepsis.geometry.shape import IDENTITY, Geom, Quaternion, Shape, Triple
 
 DEFAULT_FRICTION = 0.5
 """Sliding friction of a thing of which nothing is known [1]."""
@@ -77,12 +77,22 @@ class Thing:
         return self.mount.by == "whole" and bool(self.shape.geoms)
 
 
-def own_solids(thing: Thing, things: Iterable[Thing]) -> tuple[int, ...]:
-    """Return which solids of a thing are its own: others are moved, and touched, as those of a part on joints."""
-    moved = [
-        geom for part in things if part.whole == thing.name and part.mount.by == "joints" for geom in part.shape.geoms
-    ]
-    return tuple(k for k, geom in enumerate(thing.shape.geoms) if geom not in moved)
+def own_solids(things: Sequence[Thing]) -> dict[str, tuple[int, ...]]:
+    """Return which solids of each thing are its own: others stand again in a part on joints, which moves for itself."""
+    wholes = {thing.name: thing for thing in things}
+    moved: dict[str, list[Geom]] = {}
+    for part in things:
+        whole = wholes.get(part.whole or "")
+        if whole is not None and part.mount.by == "joints" and _frame(part) == _frame(whole):
+            moved.setdefault(whole.name, []).extend(part.shape.geoms)
+    return {
+        thing.name: tuple(k for k, geom in enumerate(thing.shape.geoms) if geom not in moved.get(thing.name, ()))
+        for thing in things
+    }
+
+
+def _frame(thing: Thing) -> tuple[Triple, Quaternion]:
+    return thing.position, thing.orientation
 
 
 def friction_of(thing: Thing) -> float:

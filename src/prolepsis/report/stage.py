@@ -53,6 +53,7 @@ class Stage:
         self._index = {thing.name: i for i, thing in enumerate(log.things)}
         self._ancestors = [self._chain(thing) for thing in log.things]
         self._appears = [thing.emerges for thing in log.things]
+        self._own = own_solids(log.things)
         spec: Any = mujoco.MjSpec()
         _dress(spec, width, height)
         for i, thing in enumerate(log.things):
@@ -161,7 +162,7 @@ class Stage:
     def _is_vessel(self, i: int) -> bool:
         """Return whether a thing is an open container drawn as glass: none that breaks or is drawn by parts."""
         thing = self.log.things[i]
-        whole = len(own_solids(thing, self.log.things)) == len(thing.shape.geoms)
+        whole = len(self._own[thing.name]) == len(thing.shape.geoms)
         return "Container" in thing.roles and "Breakable" not in thing.roles and whole
 
     def _chain(self, thing: Thing) -> frozenset[int]:
@@ -177,7 +178,7 @@ class Stage:
         look = {"rgba": self._colour(thing), "contype": 0, "conaffinity": 0, "density": 0}
         # The inertia of a hollow mesh is defined for the thinnest piece; only the picture matters here.
         hollow = {"inertia": mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL}
-        own = own_solids(thing, self.log.things)
+        own = self._own[thing.name]
         if thing.shape.profile and len(own) == len(thing.shape.geoms):
             vertices, triangles = turned_surface(thing.shape)
             spec.add_mesh(name=f"mesh{i}", uservert=vertices.ravel(), userface=triangles.ravel(), **hollow)

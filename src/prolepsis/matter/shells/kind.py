@@ -65,13 +65,13 @@ class Shells(Kind):
     def edit(self, building: Building) -> None:
         """Give each an explicit contact with everything else, whose stiffness breaking sets."""
         scene = building.scene
-        shelled = {shell.whole for shell in scene.each(Shell)}
+        shelled, own = {shell.whole for shell in scene.each(Shell)}, own_solids(scene.things)
         for thing in scene.things:
             for other in scene.things if thing.name in shelled else ():
                 twice = other.name in shelled and other.name < thing.name
                 if other is not thing and not other.emerges and not twice:
                     friction = min(friction_of(thing), friction_of(other))
-                    for i, j in product(range(len(thing.shape.geoms)), own_solids(other, scene.things)):
+                    for i, j in product(range(len(thing.shape.geoms)), own[other.name]):
                         building.add_pair(f"{thing.name}/{i}", f"{other.name}/{j}", friction, NEAR)
 
     def start(self, state: Running) -> Sequence[Controller]:
