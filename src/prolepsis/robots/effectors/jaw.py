@@ -15,10 +15,10 @@ from prolepsis.robots.effectors.pinching import (
     FARTHEST,
     TABLE,
     add_drive,
-    frame,
     moved_bodies,
     open_by_growing,
     pad_distance,
+    pinching,
     pinching_drive,
     refuse_bare_pads,
     tabulated,
@@ -92,16 +92,7 @@ class Jaw(EffectorKind[JawTable]):
         """Return the jaw; the y axis of its frame goes from the fixed pad to where it holds."""
         pads = table.surfaces(model, given.palm)
         across = np.array(given.tool) - _foot(spec, given.palm, pads[0], given.tool, where)
-        return Effector(
-            kind=self.name,
-            palm=given.palm,
-            joints=joints,
-            pads=tuple(pad_body(model, pad) for pad in pads),
-            surfaces=pads,
-            tool=given.tool,
-            tool_orientation=frame(given.forward, across, where),
-            max_force=given.max_force or 0.0,
-        )
+        return pinching(self.name, model, joints, pads, across, given, where)
 
     def gap(self, spec: Any, model: Any, effector: Effector, where: str) -> Gap:
         """Return how far the moving pad is from the place on the fixed one where things are held."""

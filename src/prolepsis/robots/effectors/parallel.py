@@ -14,17 +14,17 @@ from prolepsis.robots.effectors.gripper_control import GripperControl
 from prolepsis.robots.effectors.kind import EffectorKind, effector
 from prolepsis.robots.effectors.pinching import (
     add_drive,
-    frame,
     half_open,
     moved_bodies,
     open_by_growing,
     pad_distance,
+    pinching,
     pinching_drive,
     refuse_bare_pads,
     tabulated,
     tool_pose,
 )
-from prolepsis.robots.parts import follow_couplings, pad_body, pad_geoms
+from prolepsis.robots.parts import follow_couplings, pad_geoms
 from prolepsis.scenario.own_robot import STRICT, Name, OwnGripper
 from prolepsis.scene.robot import Effector
 from prolepsis.scene.running import Running
@@ -97,16 +97,7 @@ class Parallel(EffectorKind[ParallelTable]):
         pads, palm = table.surfaces(model), model.body(given.palm).id
         middles = [np.mean([data.geom_xpos[g] for g in pad_geoms(model, pad)], axis=0) for pad in pads]
         across: FloatArray = data.xmat[palm].reshape(3, 3).T @ (middles[0] - middles[1])
-        return Effector(
-            kind=self.name,
-            palm=given.palm,
-            joints=joints,
-            pads=tuple(pad_body(model, pad) for pad in pads),
-            surfaces=pads,
-            tool=given.tool,
-            tool_orientation=frame(given.forward, across, where),
-            max_force=given.max_force or 0.0,
-        )
+        return pinching(self.name, model, joints, pads, across, given, where)
 
     def gap(self, spec: Any, model: Any, effector: Effector, where: str) -> Gap:
         """Return the gap between the geoms of the pads; half open, the pads' middles are at the frame's origin."""

@@ -11,7 +11,8 @@ from prolepsis.geometry.rotations import compose_pose, from_axes, rotated
 from prolepsis.geometry.shape import FloatArray, Quaternion, quaternion
 from prolepsis.robots.effectors.gap import Gap
 from prolepsis.robots.effectors.gripper_control import Drive
-from prolepsis.robots.parts import follow_couplings, pad_geoms
+from prolepsis.robots.parts import follow_couplings, pad_body, pad_geoms
+from prolepsis.scenario.own_robot import OwnGripper
 from prolepsis.scene.robot import Effector
 from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.errors import ScenarioError, UnknownNameError
@@ -153,6 +154,32 @@ def tool_pose(model: Any, data: Any, effector: Effector) -> tuple[FloatArray, Fl
     pose = compose_pose(np.array([*palm.xpos, *palm.xquat]), tool)
     rotation = quaternion(pose[3:])
     return pose[:3], rotated(rotation, (1.0, 0.0, 0.0)), rotated(rotation, (0.0, 1.0, 0.0))
+
+
+def pinching(
+    kind: str,
+    model: Any,
+    joints: tuple[str, ...],
+    pads: tuple[str, str],
+    across: FloatArray,
+    given: OwnGripper,
+    where: str,
+) -> Effector:
+    """Return the effector of a kind whose pads, bodies or geoms, pinch along ``across``, shape (3,), seen by its palm.
+
+    Raises:
+        ScenarioError: If that is the way to the fingertips.
+    """
+    return Effector(
+        kind=kind,
+        palm=given.palm,
+        joints=joints,
+        pads=tuple(pad_body(model, pad) for pad in pads),
+        surfaces=pads,
+        tool=given.tool,
+        tool_orientation=frame(given.forward, across, where),
+        max_force=given.max_force or 0.0,
+    )
 
 
 def _lengths(model: Any, effector: Effector, where: str) -> FloatArray:
