@@ -14,9 +14,11 @@ import pytest
 from tests.synthetic import egg_drop_log, particles, wet_log
 
 from prolepsis.log.files import read_log, write_log
+from prolepsis.log.happenings import Happenings
 from prolepsis.log.log import FREE, Log
 from prolepsis.log.particle_tables import STEP, rounded
 from prolepsis.log.sealed import MANIFEST, write_sealed
+from prolepsis.log.things import jointed
 from prolepsis.terms.errors import InputError, LogError
 
 FILES = (
@@ -256,3 +258,14 @@ def test_a_failure_while_writing_leaves_the_earlier_log(
         write_sealed(tmp_path / "log", fail)
     assert [file.name for file in tmp_path.iterdir()] == ["log"]
     assert isinstance(read_log(tmp_path / "log"), Log)
+
+
+def test_what_could_not_be_read_is_not_written(tmp_path: Path) -> None:
+    log = egg_drop_log()
+    odd = Happenings(tick=np.array([3]), things={"tick": np.array([1])})
+    with pytest.raises(InputError, match="puffs: a column is there twice"):
+        write_log(replace(log, happenings={"puff": odd}), tmp_path / "puff")
+    circle = tuple(replace(thing, mount=jointed(thing.name)) if k == 1 else thing for k, thing in enumerate(log.things))
+    with pytest.raises(InputError, match="egg1: hangs on egg1, which is no thing or hangs on itself"):
+        write_log(replace(log, things=circle), tmp_path / "circle")
+    assert not any(tmp_path.iterdir())

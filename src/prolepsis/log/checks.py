@@ -6,7 +6,7 @@ A folder may come from a stranger who has sealed it well, so nothing beyond this
 from __future__ import annotations
 
 import itertools
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -65,6 +65,7 @@ def check_log(log: Log) -> None:
     _check_range("joints: end", joints.end, 0, ticks + 1)
     for name in ("position", "mass", "volume"):
         _check_numbers(f"particles: {name}", getattr(particles, name))
+    check_columns("particles", tuple(particles.columns))
     for name, column in particles.columns.items():
         _check_numbers(f"particles: {name}", column)
         if column.shape != particles.holder.shape:
@@ -117,6 +118,7 @@ def check_name(what: str, name: str) -> None:
 
 
 def _check_happenings(type: str, happenings: Happenings, ticks: int, count: int) -> None:
+    check_columns(f"{type}s", (*happenings.things, *happenings.numbers))
     _check_ascending(f"{type}s", happenings.tick, ticks)
     for name, column in happenings.things.items():
         _check_range(f"{type}s: {name}", column, 0, count)
@@ -132,27 +134,25 @@ def _check_things(things: tuple[Thing, ...]) -> None:
     wholes = {thing.name: thing.whole for thing in things}
     if len(wholes) < len(things) or "" in wholes:
         raise ValueError("two things have the same name, or one has none")
-    for name in wholes:
-        above, seen = wholes[name], {name}
-        while above is not None:
-            if above not in wholes or above in seen:
-                raise ValueError(f"{name}: is a part of {above}, which is no thing or a part of itself")
-            seen.add(above)
-            above = wholes[above]
+    _refuse_circles(wholes, "is a part of")
     for thing in things:
-        if thing.mount.to is not None and (thing.mount.to not in wholes or thing.mount.by != "joints"):
-            raise ValueError(f"{thing.name}: hangs on {brief(thing.mount.to)}, which is no thing, or not by joints")
-    holders = {thing.name: thing.mount.to for thing in things}
-    for name in holders:
-        holder, seen = holders[name], {name}
-        while holder is not None:
-            if holder in seen:
-                raise ValueError(f"{name}: hangs on itself")
-            seen.add(holder)
-            holder = holders[holder]
+        if thing.mount.to is not None and thing.mount.by != "joints":
+            raise ValueError(f"{thing.name}: hangs on {brief(thing.mount.to)}, but not by joints")
+    _refuse_circles({thing.name: thing.mount.to for thing in things}, "hangs on")
     for thing in things:
         _check_numbers(f"{thing.name}: pose", np.array((*thing.position, *thing.orientation), dtype=np.float64))
         _check_shape(thing.name, thing.shape)
+
+
+def _refuse_circles(above: Mapping[str, str | None], how: str) -> None:
+    """Refuse things above which, by name, something is that is no thing, or is above itself."""
+    for name in above:
+        holder, seen = above[name], {name}
+        while holder is not None:
+            if holder not in above or holder in seen:
+                raise ValueError(f"{name}: {how} {brief(holder)}, which is no thing or {how} itself")
+            seen.add(holder)
+            holder = above[holder]
 
 
 def _check_shape(name: str, shape: Shape) -> None:
