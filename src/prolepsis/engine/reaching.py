@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from prolepsis.engine.stretches import Matter, Stretch
-from prolepsis.geometry.rotations import rotate
+from prolepsis.geometry.rotations import rotate_back
 from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.geometry.solids import Solid, solid_of
 from prolepsis.log.log import Contacts
@@ -137,7 +137,7 @@ def _solids(things: Sequence[Thing], matter: Matter, carrier: int) -> list[tuple
 
 
 def _seen_from(pose: FloatArray, points: FloatArray) -> FloatArray:
-    return rotate((pose[3:] * BACK)[None], points - pose[:3])
+    return rotate_back(pose[None, 3:], points - pose[:3])
 
 
 def _lasts(found: dict[int, tuple[float, bool]], needed: int, end: int) -> int | None:

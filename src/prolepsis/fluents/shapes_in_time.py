@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from prolepsis.fluents.observation import Observation
-from prolepsis.geometry.rotations import matrix, multiply, rotate_back
+from prolepsis.geometry.rotations import inverses, matrix, multiply, rotate_back
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray, Shape
 from prolepsis.geometry.solids import Solid, bounded
 
@@ -109,7 +109,7 @@ def _parts(observation: Observation, body: int, parts: tuple[int, ...], tick: in
         if part != body:
             here = observation.log.poses[tick, part]
             displacement = rotate_back(pose[3:], here[:3] - pose[:3])
-            rotation = matrix(multiply(pose[3:] * np.array([1.0, -1.0, -1.0, -1.0]), here[3:]))
+            rotation = matrix(multiply(inverses(pose[3:]), here[3:]))
             solids = tuple(_placed(solid, displacement, rotation) for solid in solids)
         if solids or shape.profile or shape.surface is not None:
             found.append(Part(shape=shape, displacement=displacement, rotation=rotation, solids=solids))

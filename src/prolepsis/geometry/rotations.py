@@ -6,6 +6,7 @@ One rotation is a tuple, or a part of a pose of shape (7,), position and quatern
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -91,24 +92,22 @@ def rolled(angle: float) -> FloatArray:
 def matrix(quaternion: FloatArray | Quaternion) -> FloatArray:
     """Return the rotation matrix of a quaternion, which need not be of unit length, shape (3, 3)."""
     w, x, y, z = np.asarray(quaternion) / np.linalg.norm(quaternion)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+    return np.array(_rows(w, x, y, z))
 
 
 def matrices(quaternions: FloatArray) -> FloatArray:
     """Return rotation matrices, shape (..., 3, 3), of unit quaternions, shape (..., 4)."""
     w, x, y, z = np.moveaxis(quaternions, -1, 0)
-    rows = (
+    return np.stack([np.stack(row, axis=-1) for row in _rows(w, x, y, z)], axis=-2)
+
+
+def _rows(w: Any, x: Any, y: Any, z: Any) -> tuple[tuple[Any, Any, Any], ...]:
+    """Return the rows of a rotation matrix, of numbers or of arrays alike."""
+    return (
         (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
         (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
         (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
     )
-    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
 
 
 def rotate(quaternion: FloatArray, vector: FloatArray) -> FloatArray:
@@ -133,7 +132,12 @@ def cross(first: FloatArray, second: FloatArray) -> FloatArray:
 
 def rotate_back(quaternion: FloatArray, vector: FloatArray) -> FloatArray:
     """Return vectors turned by the inverse of unit quaternions."""
-    return rotate(quaternion * np.array([1.0, -1.0, -1.0, -1.0]), vector)
+    return rotate(inverses(quaternion), vector)
+
+
+def inverses(quaternions: FloatArray) -> FloatArray:
+    """Return the inverses of unit quaternions, shape (..., 4)."""
+    return quaternions * np.array([1.0, -1.0, -1.0, -1.0])
 
 
 def multiply(first: FloatArray, second: FloatArray) -> FloatArray:
