@@ -125,11 +125,11 @@ def _supporters_first(names: list[str], below: dict[str, str]) -> list[str]:
 
 def _thing(kb: KnowledgeBase, name: str, roles: Roles, later: Collection[str] | None) -> Thing:
     """Return a whole as a thing at its stated place; shapes that are built ``later`` are left out, at None all."""
-    if not any(known == "shape" for known in kb.quantities(name)):
+    known = kb.quantities(name)
+    if "shape" not in known:
         raise KnowledgeError(f"{name} ({kb.kind(name)}) has no shape; state :shape, one of {', '.join(SHAPES)}")
     kind = kb.kind(name)
-    shape = str(kb.value(name, "shape").value)
-    known = kb.quantities(name)
+    shape = str(known["shape"].value)
     quantities = {p: float(k.value) for p, k in known.items() if isinstance(k.value, float)}
     quantities |= {feature: 1.0 for feature in FEATURES if feature in known and known[feature].value == "true"}
     quantities |= {attribute: 1.0 for attribute, cls in ATTRIBUTES.items() if kb.is_a(name, cls)}

@@ -91,7 +91,6 @@ def _refuse_strength(kb: KnowledgeBase, name: str) -> None:
     """Refuse what does not break here though it is told to: its strength would never come to bear."""
     if kb.is_a(name, "Shell"):
         return
-    kinds = brief_list(c for c in kb.class_names() if "Shelled" in kb.vocabulary.told_classes((c,)))
     known = kb.find(name, "breakingForce")
     if known is not None and known.origin != "derived":
         shells = [part for part in kb.parts(name) if kb.is_a(part, "Shell")]
@@ -99,14 +98,16 @@ def _refuse_strength(kb: KnowledgeBase, name: str) -> None:
             raise KnowledgeError(
                 f"{kb.place(name)}: {name} breaks by its shell; state the breakingForce of {shells[0]}"
             )
-        raise KnowledgeError(
-            f"{kb.place(name)}: {name} ({kb.kind(name)}) has a breakingForce, but does not break here; "
-            f"what does: {kinds}"
-        )
+        raise _unbreakable(kb, name, "has a breakingForce")
     if kb.whole(name) is None and kb.is_a(name, "Breakable") and not kb.is_a(name, "Shelled"):
-        raise KnowledgeError(
-            f"{kb.place(name)}: {name} ({kb.kind(name)}) is Breakable, but does not break here; what does: {kinds}"
-        )
+        raise _unbreakable(kb, name, "is Breakable")
+
+
+def _unbreakable(kb: KnowledgeBase, name: str, told: str) -> KnowledgeError:
+    kinds = brief_list(c for c in kb.class_names() if "Shelled" in kb.vocabulary.told_classes((c,)))
+    return KnowledgeError(
+        f"{kb.place(name)}: {name} ({kb.kind(name)}) {told}, but does not break here; what does: {kinds}"
+    )
 
 
 KIND = Shells()
