@@ -14,6 +14,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from tests.scenes import EGG_IN_HAND, run, scene
 
@@ -124,6 +125,21 @@ def test_a_kind_of_matter_is_three_files_and_no_line_elsewhere(tmp_path: Path) -
     (answer,) = ast.literal_eval(answers)
     assert answer["V"] == 2.0
     assert answer["E"] == pytest.approx(2 * math.log(35 / 30), abs=0.002)
+
+
+def test_a_kind_pushes() -> None:
+    kind = defined("A kind that pushes")["Draught"]()
+    known = scene(":floor a :Floor . :block1 a :Block ; :length 0.1 ; :mass 0.01 ; :z 1.0 .")
+    world = compile_world(replace(known, kinds=(*known.kinds, kind)))
+    log = simulate(world, read_program(parse_term("wait(0.3)"), known), duration=0.3)
+    way = log.poses[-1, log.index("block1"), :3] - log.poses[0, log.index("block1"), :3]
+    speed, moved = np.zeros(3), np.zeros(3)
+    for _ in range(299):
+        past = np.array([4.0, 0, 0]) - speed
+        speed = speed + (np.array([0, 0, -9.81]) + 0.66 * 0.1**2 / 0.01 * np.linalg.norm(past) * past) * 1e-3
+        moved = moved + speed * 1e-3
+    assert way == pytest.approx(moved, abs=2e-3)
+    assert way[0] > 0.2
 
 
 def test_a_channel_is_a_line_of_a_kind() -> None:

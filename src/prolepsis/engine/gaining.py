@@ -63,6 +63,8 @@ class Surroundings:
     """What stuck to what."""
     wet: BoolArray
     """Whether a liquid pushed each, shape (T, n); of no rows without liquids."""
+    driven: BoolArray
+    """Whether a kind pushed each that may add to its energy, shape (T, n); of no rows if none did."""
     mass: FloatArray
     """What each weighs [kg], with what it has absorbed, shape (T, n); of no rows without liquids."""
     particles: Particles
@@ -109,6 +111,8 @@ class _Run:
         held = np.zeros((self.ticks, self.count), dtype=np.bool_)
         for stretch in self.stretches:
             held[stretch.start : stretch.end] = stretch.bodies.driven
+        if len(self.around.driven):
+            held |= self.around.driven
         if not held.any():
             return held
         tick, a, b = self.between.T

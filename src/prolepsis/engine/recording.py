@@ -53,6 +53,8 @@ class Recorder:
     """What stuck to what, from which tick to before which."""
     wet: list[tuple[BoolArray, FloatArray]] = field(default_factory=list["tuple[BoolArray, FloatArray]"])
     """Whether a liquid pushes each body, and what each weighs [kg], at each tick of a run with liquids."""
+    driven: dict[int, BoolArray] = field(default_factory=dict[int, BoolArray])
+    """Which bodies a kind pushes that may add to their energy, by tick."""
     _seen: int = -1
 
     def note_version(self, state: State) -> None:
@@ -105,7 +107,9 @@ class Recorder:
             start = runs.pop()[0] if runs and runs[-1][1] == now else now
             runs.append((start, now + 1))
         if state.particles is not None:
-            self.wet.append((state.data.xfrc_applied.any(axis=1), state.model.body_mass.copy()))
+            self.wet.append((state.pushes.on(state.model.nbody, passes_on=True), state.model.body_mass.copy()))
+        if (driven := state.pushes.on(state.model.nbody, passes_on=False)).any():
+            self.driven[len(self.poses)] = driven
         self.poses.append((len(self.versions) - 1, state.data.xpos.copy(), state.data.xquat.copy()))
 
     def stretches(self) -> list[Stretch]:
@@ -142,7 +146,12 @@ class Recorder:
         for tick, (pushed, heavy) in enumerate(self.wet):
             body_of = self.versions[self.poses[tick][0]].body_of
             wet[tick], mass[tick] = pushed[body_of], heavy[body_of]
-        return Surroundings(contacts=contacts, joints=self.joint_columns(), wet=wet, mass=mass, particles=particles)
+        driven = np.zeros((len(self.poses) if self.driven else 0, shape[1]), dtype=np.bool_)
+        for tick, pushed in self.driven.items():
+            driven[tick] = pushed[self.versions[self.poses[tick][0]].body_of]
+        return Surroundings(
+            contacts=contacts, joints=self.joint_columns(), wet=wet, driven=driven, mass=mass, particles=particles
+        )
 
     def pose_columns(self) -> tuple[FloatArray, IntArray]:
         """Return poses, shape (T, n, 7), and carriers, shape (T, n)."""

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from prolepsis.engine.pushing import Pushes
 from prolepsis.engine.world import DEBRIS_IMPEDANCE_RATIO, World, add_geom
 from prolepsis.geometry.rotations import compose_pose, inverse, relative_pose, rotated
 from prolepsis.geometry.shape import FloatArray, IntArray, Quaternion, Triple, quaternion, triple
@@ -59,6 +60,8 @@ class State:
     """The particles of all liquids, if there are any."""
     joints: set[tuple[int, int]] = field(default_factory=set[tuple[int, int]])
     """What sticks to what now: indices of the holding and the held thing."""
+    pushes: Pushes = field(default_factory=Pushes)
+    """What kinds push now."""
     _body_of_geom: list[int] = field(default_factory=list[int])
     _bodies_version: int = -1
     _forces: list[tuple[int, int, int, float]] = field(default_factory=list[tuple[int, int, int, float]])
@@ -103,7 +106,7 @@ class State:
     def refresh(self) -> None:
         """Bring the map from bodies to things up to date after the model has changed."""
         index = {thing.name: i for i, thing in enumerate(self.scene.things)}
-        self.body_thing = np.array([index.get(self.model.body(b).name, -1) for b in range(self.model.nbody)])
+        self.body_thing = np.array([index.get(name, -1) for name in _body_names(self.model)])
 
     def report(self, happening: Happening) -> None:
         """Tell the log that something has happened in this tick."""
@@ -138,6 +141,10 @@ class State:
                     slippery = min(friction, float(pair.friction[0]))
                     pair.friction = [slippery, slippery, *pair.friction[2:]]
                     self.model.pair(pair.name).friction[:2] = slippery
+
+    def push(self, source: object, bodies: IntArray, wrenches: FloatArray, *, passes_on: bool = False) -> None:
+        """Push bodies from now on, in place of what the same source pushed."""
+        self.pushes.put(source, self.data, bodies, wrenches, passes_on=passes_on)
 
     def generator(self, name: str) -> np.random.Generator:
         """Return the source of randomness for what is called ``name``."""
@@ -350,7 +357,9 @@ class State:
         places = {joint.name: joint.data.copy() for joint in old if joint.name.startswith(JOINT)}
         pairs = [self.model.pair(number) for number in range(self.model.npair)]
         contacts = {each.name: (each.solref.copy(), each.solimp.copy(), each.margin.copy()) for each in pairs}
+        before = _body_names(self.model)
         self.model, self.data = self.spec.recompile(self.model, self.data)
+        self.pushes.bind(before, _body_names(self.model))
         # Compiling puts the second point where it would be in the first posture, which may be centimetres off.
         for known in self.spec.equalities:
             if known.name in places:
@@ -362,6 +371,10 @@ class State:
                 now.solref[:], now.solimp[:], now.margin[:] = contacts[known.name]
         self.version += 1
         self.refresh()
+
+
+def _body_names(model: Any) -> list[str]:
+    return [model.body(body).name for body in range(model.nbody)]
 
 
 def _carrier(things: Sequence[Thing], index: Mapping[str, int], i: int) -> int:

@@ -126,7 +126,7 @@ class Controller:
         return True
 
     def act(self, state: Running) -> None:
-        """Do its work after a substep."""
+        """Do its work after a substep; once a controller has rebuilt the model, the others wait for the next one."""
         del state
 
     def end_tick(self, state: Running) -> None:

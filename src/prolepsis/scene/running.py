@@ -92,6 +92,18 @@ class Running(Protocol):
         """Give a thing's surface another sliding friction [1], for the rest of the run."""
         ...
 
+    def push(self, source: object, bodies: IntArray, wrenches: FloatArray, *, passes_on: bool = False) -> None:
+        """Push bodies from now on, in place of what the same source pushed; what different sources push is summed.
+
+        Args:
+            source: Who pushes: a controller.
+            bodies: Numbers of MuJoCo bodies, as ``model.body(name).id``, each once, shape (k,).
+            wrenches: Force [N] and torque about the centre of mass [N m], in the world's axes, shape (k, 6).
+            passes_on: Whether it only passes energy on, as a liquid does, so that what it pushes must not gain any;
+                what others push may have any energy, as what a hand moves.
+        """
+        ...
+
     def generator(self, name: str) -> np.random.Generator:
         """Return the source of randomness for what is called ``name``, a child of the scenario's seed."""
         ...

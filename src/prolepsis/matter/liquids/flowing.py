@@ -105,8 +105,8 @@ class Flowing(Controller):
     def _rest(self, state: Running) -> None:
         """Do nothing while nothing flows; the first time, let go of the bodies."""
         if not self._resting:
-            state.data.xfrc_applied[:] = 0.0
             self._force[:] = 0.0
+            state.push(self, self._walls.ids[:0], self._force[:0], passes_on=True)
             self._elapsed, self._ticks, self._resting = 0, 1, True
             self.liquid.particles.behind = 0.0
 
@@ -127,8 +127,8 @@ class Flowing(Controller):
         self._force += share * (force - self._force)
 
     def _push(self, state: Running) -> None:
-        state.data.xfrc_applied[:] = 0.0
-        state.data.xfrc_applied[self._walls.ids] = about(state.data.xipos[self._walls.ids], self._force)
+        ids = self._walls.ids
+        state.push(self, ids, about(state.data.xipos[ids], self._force), passes_on=True)
 
     def _park(self, state: Running) -> None:
         particles = self.liquid.particles

@@ -1,0 +1,55 @@
+"""Pushing: what kinds do to bodies by forces of their own, summed, and whether it can add to the energy of bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class _Push:
+    bodies: IntArray
+    """MuJoCo bodies, shape (k,)."""
+    wrenches: FloatArray
+    """Force [N] and torque about the centre of mass [N m] on each, world frame, shape (k, 6)."""
+    passes_on: bool
+
+    def on(self, count: int) -> FloatArray:
+        """Return the sum on each of ``count`` bodies, shape (count, 6)."""
+        total = np.zeros((count, 6))
+        np.add.at(total, self.bodies, self.wrenches)
+        return total
+
+
+@dataclass(kw_only=True)
+class Pushes:
+    """What each source pushes now."""
+
+    _by: dict[object, _Push] = field(default_factory=dict[object, _Push])
+
+    def put(self, source: object, data: Any, bodies: IntArray, wrenches: FloatArray, *, passes_on: bool) -> None:
+        """Take what a source pushes from now on in place of what it pushed, and bring the sum into the data."""
+        self._by[source] = _Push(bodies=bodies.copy(), wrenches=wrenches.copy(), passes_on=passes_on)
+        data.xfrc_applied[:] = sum(each.on(len(data.xfrc_applied)) for each in self._by.values())
+
+    def on(self, count: int, *, passes_on: bool) -> BoolArray:
+        """Return which of ``count`` bodies is pushed by sources that only pass energy on, or by others."""
+        pushed = np.zeros(count, dtype=np.bool_)
+        for each in self._by.values():
+            if each.passes_on == passes_on:
+                pushed[each.bodies] |= each.wrenches.any(axis=1)
+        return pushed
+
+    def bind(self, old: Sequence[str], new: Sequence[str]) -> None:
+        """Take the numbers of bodies in a model that is new, names being given; what is no more is pushed no more."""
+        index = {name: body for body, name in enumerate(new)}
+        number = np.array([index.get(name, -1) for name in old], dtype=np.int64)
+        for source, each in self._by.items():
+            kept = number[each.bodies] >= 0
+            bodies = number[each.bodies[kept]]
+            self._by[source] = replace(each, bodies=bodies, wrenches=each.wrenches[kept])
