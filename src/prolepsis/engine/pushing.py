@@ -37,6 +37,11 @@ class Pushes:
         self._by[source] = _Push(bodies=bodies.copy(), wrenches=wrenches.copy(), passes_on=passes_on)
         data.xfrc_applied[:] = sum(each.on(len(data.xfrc_applied)) for each in self._by.values())
 
+    @property
+    def drive(self) -> bool:
+        """Whether something may be pushed that gains energy by it."""
+        return any(not each.passes_on for each in self._by.values())
+
     def on(self, count: int, *, passes_on: bool) -> BoolArray:
         """Return which of ``count`` bodies is pushed by sources that only pass energy on, or by others."""
         pushed = np.zeros(count, dtype=np.bool_)

@@ -108,8 +108,8 @@ class Recorder:
             runs.append((start, now + 1))
         if state.particles is not None:
             self.wet.append((state.pushes.on(state.model.nbody, passes_on=True), state.model.body_mass.copy()))
-        if (driven := state.pushes.on(state.model.nbody, passes_on=False)).any():
-            self.driven[len(self.poses)] = driven
+        if state.pushes.drive:
+            self.driven[len(self.poses)] = state.pushes.on(state.model.nbody, passes_on=False)
         self.poses.append((len(self.versions) - 1, state.data.xpos.copy(), state.data.xquat.copy()))
 
     def stretches(self) -> list[Stretch]:
