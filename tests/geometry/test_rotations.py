@@ -43,6 +43,25 @@ def test_vectors_and_axes_turn_as_by_mujoco(_: int) -> None:
     assert min(np.abs(found - back).max(), np.abs(found + back).max()) < 1e-14
 
 
+@pytest.mark.parametrize("_", range(20))
+def test_turns_about_an_axis_are_those_of_mujoco(_: int) -> None:
+    axis, angle = pose()[4:], float(RANDOM.uniform(-3, 3))
+    axis /= np.linalg.norm(axis)
+    expected, axes = np.zeros(4), np.zeros(9)
+    mujoco.mju_axisAngle2Quat(expected, axis, angle)
+    mujoco.mju_quat2Mat(axes, expected)
+    assert rotations.turned_about(axis, angle) == pytest.approx(axes.reshape(3, 3), abs=1e-15)
+    up = np.array([0.0, 0.0, 1.0])
+    assert rotations.yawed(angle) == pytest.approx(rotations.turned_about(up, angle), abs=1e-15)
+    assert rotations.yaw_of(rotations.turned((1.0, 0.0, 0.0, 0.0), (angle, 0.0, 0.0))) == pytest.approx(angle)
+    before = pose()[3:]
+    mujoco.mju_axisAngle2Quat(expected, axis, 1e-4 * angle)
+    after = rotations.multiply(expected, before)
+    for sign in (1.0, -1.0):
+        found = rotations.small_turns(before[None], sign * after[None])
+        assert found[0] == pytest.approx(1e-4 * angle * axis, abs=1e-12)
+
+
 @pytest.mark.parametrize("axis", [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (0, 1, 1)])
 def test_half_turns_have_axes_too(axis: tuple[int, int, int]) -> None:
     unit = np.array(axis) / np.linalg.norm(axis)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.geometry.rotations import inverses, multiply, rotate, rotate_back
+from prolepsis.geometry.rotations import rotate, rotate_back, small_turns
 from prolepsis.geometry.shape import BoolArray, FloatArray, Geom, IntArray
 from prolepsis.log.things import Thing
 from prolepsis.system.mujoco import mujoco
@@ -63,8 +63,7 @@ class Movers:
         """
         middle = poses[:, :3] + rotate(poses[:, 3:], self.centre[thing])
         speed = np.diff(middle, axis=0) / dt
-        change = multiply(poses[1:, 3:], inverses(poses[:-1, 3:]))
-        spin = 2.0 * change[:, 1:] * np.sign(change[:, :1] + 1e-300) / dt
+        spin = small_turns(poses[:-1, 3:], poses[1:, 3:]) / dt
         own = rotate_back(self.axes[thing], rotate_back(poses[:-1, 3:], spin))
         turning = 0.5 * np.square(own) @ self.inertia[thing]
         return 0.5 * np.square(speed).sum(axis=1) + turning - (middle[1:] + middle[:-1]) @ gravity / 2

@@ -1,4 +1,4 @@
-"""Rotations as unit quaternions (w, x, y, z), and poses: the only place that knows how they are put together.
+"""Rotations as unit quaternions (w, x, y, z), and poses: only here, and in MuJoCo, is known how they are put together.
 
 One rotation is a tuple, or a part of a pose of shape (7,), position and quaternion; many are arrays of shape (..., 4).
 """
@@ -66,6 +66,17 @@ def angles_of(first: Quaternion, orientation: Quaternion) -> Triple:
     return (yaw, pitch, roll)
 
 
+def yaw_of(orientation: Quaternion) -> float:
+    """Return the direction in which an orientation that is turned about the vertical faces [rad]."""
+    w, _, _, z = orientation
+    return 2 * math.atan2(z, w)
+
+
+def wrapped(angle: float) -> float:
+    """Return an angle between -pi and pi [rad]."""
+    return (angle + math.pi) % (2 * math.pi) - math.pi
+
+
 def from_axes(axes: FloatArray) -> Quaternion:
     """Return the rotation whose axes are given as columns, shape (3, 3)."""
     (a, b, c), (d, e, f), (g, h, i) = axes.tolist()
@@ -87,6 +98,19 @@ def rolled(angle: float) -> FloatArray:
     """Return the rotation matrix of a roll about x by ``angle`` [rad], shape (3, 3)."""
     c, s = np.cos(angle), np.sin(angle)
     return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+
+
+def yawed(angle: float) -> FloatArray:
+    """Return the rotation matrix of a yaw about z by ``angle`` [rad], shape (3, 3)."""
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def turned_about(axis: FloatArray, angle: float) -> FloatArray:
+    """Return the rotation matrix of a turn about a unit axis by ``angle`` [rad], shape (3, 3)."""
+    half = math.sin(angle / 2)
+    x, y, z = (float(v) * half for v in axis)
+    return matrix((math.cos(angle / 2), x, y, z))
 
 
 def matrix(quaternion: FloatArray | Quaternion) -> FloatArray:
@@ -153,6 +177,13 @@ def multiply(first: FloatArray, second: FloatArray) -> FloatArray:
         ),
         axis=-1,
     )
+
+
+def small_turns(before: FloatArray, after: FloatArray) -> FloatArray:
+    """Return the rotation vectors from unit quaternions to others [rad], shape (..., 3): exact when small."""
+    change = multiply(after, inverses(before))
+    # q and -q are the same rotation; none has the sign 0.
+    return 2.0 * change[..., 1:] * np.sign(change[..., :1] + 1e-300)
 
 
 def angle_between(before: FloatArray, after: FloatArray) -> FloatArray:

@@ -6,6 +6,7 @@ import itertools
 
 import numpy as np
 
+from prolepsis.geometry.rotations import rotate
 from prolepsis.geometry.shape import FloatArray, Geom
 from prolepsis.log.things import Thing
 
@@ -21,14 +22,7 @@ def corners(thing: Thing, poses: FloatArray) -> FloatArray:
     low = np.clip(np.min([box[0] for box in boxes], axis=0), -LARGEST, LARGEST)
     high = np.clip(np.max([box[1] for box in boxes], axis=0), -LARGEST, LARGEST)
     own = np.array(list(itertools.product(*zip(low, high, strict=True))))
-    return (poses[:, None, :3] + turned(poses[:, None, 3:], own)).reshape(-1, 3)
-
-
-def turned(quaternions: FloatArray, vectors: FloatArray) -> FloatArray:
-    """Return vectors (..., 3) turned by unit quaternions (w, x, y, z) of shape (..., 4)."""
-    scalar, axis = quaternions[..., :1], quaternions[..., 1:]
-    once = np.cross(axis, vectors)
-    return vectors + 2.0 * (scalar * once + np.cross(axis, once))
+    return (poses[:, None, :3] + rotate(poses[:, None, 3:], own)).reshape(-1, 3)
 
 
 def _box(geom: Geom) -> tuple[FloatArray, FloatArray]:
@@ -39,5 +33,5 @@ def _box(geom: Geom) -> tuple[FloatArray, FloatArray]:
         x, y, z = geom.size
         half = {"box": (x, y, z), "ellipsoid": (x, y, z), "cylinder": (x, x, y), "capsule": (x, x, x + y)}
         own = np.array(list(itertools.product(*((-s, s) for s in half.get(geom.type, (x, x, x))))))
-    points = turned(np.asarray(geom.orientation), own) + np.asarray(geom.position)
+    points = rotate(np.asarray(geom.orientation), own) + np.asarray(geom.position)
     return points.min(axis=0), points.max(axis=0)

@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.geometry.rotations import rotated
-from prolepsis.geometry.shape import Geom, Quaternion, Shape, Triple
+from prolepsis.geometry.rotations import inverse, rotated
+from prolepsis.geometry.shape import Geom, Quaternion, Shape, Triple, triple
 from prolepsis.log.things import WITHIN, Thing, jointed
 from prolepsis.robots.effectors.parallel import drive_coupled
 from prolepsis.system.mujoco import mujoco
@@ -138,7 +138,7 @@ class Hand:
         palm = spec.body(f"{name}/palm")
         palm.gravcomp = 1
         for k, axis in enumerate("xyz"):
-            world_axis = rotated((orientation[0], *(-v for v in orientation[1:])), tuple(np.eye(3)[k]))  # type: ignore[arg-type]
+            world_axis = rotated(inverse(orientation), triple(np.eye(3)[k]))
             joint = palm.add_joint(name=f"{name}/{axis}", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=world_axis)
             joint.armature = 0.05
             servo = self._servo(spec, f"{name}/{axis}", self.position_gain, self.velocity_gain)

@@ -1,7 +1,8 @@
 """Inverse kinematics of one arm: joint coordinates that put its gripper where it should be.
 
 In motion mink takes the hand to its target within the joints' speeds. A search for a posture takes hundreds of steps of
-the same kind, so it states the quadratic program itself: that is ten times as fast. Both are solved by daqp.
+the same kind, so it states the quadratic program itself: that is ten times as fast. Both are solved by daqp. Poses of
+the model are put together by MuJoCo, as the model does: other roundings would lead a search elsewhere.
 """
 
 from __future__ import annotations

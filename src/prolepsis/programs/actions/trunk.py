@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from prolepsis.geometry.rotations import wrapped, yaw_of
 from prolepsis.log.things import Thing
 from prolepsis.programs.action import OBJECT, ROBOT_NAME, ParameterSpec, action
 from prolepsis.programs.moving.profile import least_jerk, least_time
@@ -52,8 +53,7 @@ def drive(
 ) -> Behaviour:
     """Drive to a position on the floor, in the world's axes, and face a direction there (0: along x)."""
     del scene
-    w, _, _, z = robot.orientation
-    first = 2 * math.atan2(z, w)
+    first = yaw_of(robot.orientation)
     dx, dy = position[0] - robot.position[0], position[1] - robot.position[1]
     along = math.cos(first) * dx + math.sin(first) * dy
     aside = math.cos(first) * dy - math.sin(first) * dx
@@ -72,7 +72,7 @@ def look_at(scene: Scene, sense: Sense, *, robot: Thing, object: Thing) -> Behav
     del scene
     here = sense.robots[robot.name]
     x, y, z = (there - at for there, at in zip(sense.position(object.name), here.neck, strict=True))
-    pan = (math.atan2(y, x) - here.yaw + math.pi) % (2 * math.pi) - math.pi
+    pan = wrapped(math.atan2(y, x) - here.yaw)
     goals = dict(zip(here.head, (pan, math.atan2(-z, math.hypot(x, y))), strict=True))
     _refuse_beyond(robot, here, goals, object)
     return (yield from move_joints(robot, sense, goals))

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from prolepsis.geometry.rotations import rotated, turned
+from prolepsis.geometry.rotations import rotated, turned, wrapped, yaw_of
 from prolepsis.geometry.shape import FloatArray, Quaternion, Triple, triple
 from prolepsis.log.things import Thing
 from prolepsis.robots.commands import ArmSense, Sense
@@ -77,17 +77,6 @@ def longest_axis(object: Thing) -> FloatArray:
     """Return the unit vector along which an object reaches farthest, one of its own axes in the world, shape (3,)."""
     axes = [rotated(object.orientation, _axis(k)) for k in range(3)]
     return max(axes, key=lambda axis: round(extent_along(object, axis), 6))
-
-
-def yaw_of(orientation: Quaternion) -> float:
-    """Return the direction in which an orientation that is turned about the vertical faces [rad]."""
-    w, _, _, z = orientation
-    return 2 * math.atan2(z, w)
-
-
-def wrapped(angle: float) -> float:
-    """Return an angle between -pi and pi [rad]."""
-    return (angle + math.pi) % (2 * math.pi) - math.pi
 
 
 def displacement_to(hand: Thing, object: Thing, sense: Sense, height: float = 0.0) -> FloatArray:

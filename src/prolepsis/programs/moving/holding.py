@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from prolepsis.geometry.rotations import inverse, matrix, product, turned
+from prolepsis.geometry.rotations import inverse, matrix, product, turned, wrapped, yaw_of
 from prolepsis.geometry.shape import Quaternion, Triple, triple
 from prolepsis.log.things import Thing
 from prolepsis.programs.moving.following import follow, go
-from prolepsis.programs.moving.grasping import as_seen, wrapped, yaw_of
+from prolepsis.programs.moving.grasping import as_seen
 from prolepsis.programs.moving.profile import PEAK_SPEED, least_jerk
 from prolepsis.robots.commands import ActionFailedError, Behaviour, HandSense, JointPath, Sense, no_joint_path
 from prolepsis.scene.extent import middle, support

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from prolepsis.geometry.rotations import angles_of, from_axes, matrix
+from prolepsis.geometry.rotations import angles_of, from_axes, matrix, turned_about, yaw_of, yawed
 from prolepsis.geometry.shape import FloatArray, Quaternion, Triple, triple
 from prolepsis.log.things import Thing
 from prolepsis.programs.action import ParameterSpec
 from prolepsis.programs.moving.following import go
-from prolepsis.programs.moving.grasping import longest_axis, yaw_of
+from prolepsis.programs.moving.grasping import longest_axis
 from prolepsis.robots.commands import Command, HandSense, JointPath, Sense, no_joint_path
 from prolepsis.scene.extent import middle
 from prolepsis.scene.scene import Scene, robot_of_gripper
@@ -45,9 +45,7 @@ class HandPose:
 
     def moved(self, about: FloatArray, axis: FloatArray, angle: float, by: FloatArray) -> HandPose:
         """Return it turned about an axis through a point by ``angle`` [rad], then moved ``by`` [m]."""
-        half = math.sin(angle / 2)
-        x, y, z = (float(v) * half for v in axis)
-        rotation = matrix((math.cos(angle / 2), x, y, z))
+        rotation = turned_about(axis, angle)
         return HandPose(position=about + rotation @ (self.position - about) + by, rotation=rotation @ self.rotation)
 
 
@@ -89,8 +87,7 @@ def holds(hand: HandSense, other: HandSense, object: Thing, reference: Quaternio
     side = 1.0 if np.subtract(other.position, hand.position) @ left > 0 else -1.0
     for lifted in LIFTED:
         for away in AWAY:
-            c, s = math.cos(math.radians(away)), math.sin(math.radians(away))
-            across = side * (np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]) @ left)
+            across = side * (yawed(math.radians(away)) @ left)
             for pinch in (np.cross(across, (0.0, 0.0, 1.0)), np.cross((0.0, 0.0, 1.0), across)):
                 axes = np.stack([across, pinch, np.cross(across, pinch)], axis=1) @ own.T
                 if axes[2, 0] < 0:
