@@ -29,6 +29,8 @@ IMPEDANCE_RATIO, DEBRIS_IMPEDANCE_RATIO = 100.0, 10.0
 less than 0.02. Once one has fallen to pieces the solver's time matters more, and pieces in a grip may creep by 0.2."""
 ROLLING_FRICTION = 2.0e-4
 """Resistance of a smooth thing to rolling, as a length [m]; a tenth of a millimetre is usual for hard round things."""
+ROUND = ("sphere", "ellipsoid", "capsule", "cylinder")
+"""Solids that roll."""
 SPINNING_FRICTION = 1.0e-3
 """Resistance to spinning on the spot, as a length [m]."""
 MOST_MOVING, MOST_SOLIDS = 2000, 20_000
@@ -213,7 +215,7 @@ def add_geom(
     made.quat = list(geom.orientation)
     if not thing.fixed:
         made.mass = mass
-    rolls = "Breakable" in thing.roles or geom.type in ("sphere", "ellipsoid", "capsule", "cylinder")
+    rolls = geom.type in ROUND
     _rule_contact(made, thing, ranks, rolls=rolls)
     made.rgba = list(thing.shape.colour)
     return made
