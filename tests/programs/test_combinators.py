@@ -59,10 +59,10 @@ class Listening(FakeHand):
     """A hand that hears the egg crack once it has gone down by 3 mm."""
 
     def sense(self, time: float) -> Sense:
-        def cracked(name: str) -> bool:
-            return name == "egg1" and bool(self.offset[2] < -0.003)
+        def attribute(name: str, attribute: str) -> float:
+            return float((name, attribute) == ("egg1", "broken") and self.offset[2] < -0.003)
 
-        return replace(super().sense(time), cracked=cracked)
+        return replace(super().sense(time), attribute=attribute)
 
 
 def test_blows_are_repeated_until_a_crack_is_heard(two_hands: Scene) -> None:

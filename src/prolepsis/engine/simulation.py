@@ -173,7 +173,7 @@ def _sense(state: State, controls: Controls, time: float) -> Sense:
         position=state.position,
         orientation=state.orientation,
         pressing=state.pressing,
-        cracked=lambda name: state.attribute(name, "broken") > 0.0,
+        attribute=state.attribute,
         robots=robots,
     )
 

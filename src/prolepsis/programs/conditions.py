@@ -47,7 +47,7 @@ def _above(sense: Sense, *, object: Thing, height: float) -> bool:
 
 
 def _cracked(sense: Sense, *, object: Thing) -> bool:
-    return sense.cracked(object.name)
+    return sense.attribute(object.name, "broken") > 0.0
 
 
 OTHER = ParameterSpec(name="other", kind="object")

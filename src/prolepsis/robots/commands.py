@@ -253,10 +253,10 @@ def no_force(first: str, second: str) -> float:
     return 0.0
 
 
-def no_crack(name: str) -> bool:
-    """Return that a thing has not cracked."""
-    del name
-    return False
+def no_attribute(name: str, attribute: str) -> float:
+    """Return that a thing is as it was made."""
+    del name, attribute
+    return 0.0
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -273,8 +273,8 @@ class Sense:
     """Unit quaternion (w, x, y, z) of a thing in the world, seen likewise."""
     pressing: Callable[[str, str], float] = no_force
     """Normal force between two things [N], as the skin or what is held tells it."""
-    cracked: Callable[[str], bool] = no_crack
-    """Whether a thing has cracked, as it is heard."""
+    attribute: Callable[[str, str], float] = no_attribute
+    """An attribute of a thing, of those that kinds of matter change: as it is seen, heard or felt."""
     robots: Mapping[str, RobotSense] = field(default_factory=dict[str, RobotSense])
     """Each robot's sense of its other joints."""
 
