@@ -21,7 +21,7 @@ from prolepsis.log.things import FREE, Thing, jointed, own_solids
 from prolepsis.matter.kinds import known_kinds
 from prolepsis.programs import read_program
 from prolepsis.scene.compose import compose
-from prolepsis.scene.kind import Controller, Kind
+from prolepsis.scene.kind import Channel, Controller, Kind
 from prolepsis.scene.parts import Panel, Shard
 from prolepsis.scene.running import TICK, Running
 from prolepsis.terms.errors import KnowledgeError, UnknownNameError
@@ -132,6 +132,21 @@ def test_what_has_particles_of_its_own_is_seen_where_it_is() -> None:
     away = middle - log.poses[seen.tick, egg, :3]
     assert np.abs(away - away[0]).max() < 1e-5
     assert middle[-1, 2] < middle[0, 2] - 0.03
+
+
+class Polishing(Kind):
+    """A kind of what may be polished; tables are from the start."""
+
+    channels = (Channel(name="polished", doc="1 where it is polished, else 0", begins="Table"),)
+
+
+def test_what_a_thing_has_at_the_start_is_told_by_its_class(tmp_path: Path) -> None:
+    turtle = FLOOR + ":table1 a :Table . :b a :Block ; :on :table1 ; :wet true . :wet_c a :Block ; :on :floor ; :x 2 ."
+    made = compose(load(tmp_path, turtle), (*known_kinds(), Polishing()), resting_height, 100)
+    shown = {name: ["wet", "dirty", "polished"] for name in ("table1", "b", "wet_c")}
+    log = simulate(compile_world(made), read_program(parse_term("wait(0.001)"), made), duration=0.01, monitors=shown)
+    having = {name for name, series in log.channels.items() if series.all()}
+    assert having == {"table1.polished", "b.wet"}
 
 
 class Misspelt(Kind):

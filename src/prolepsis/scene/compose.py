@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -22,12 +22,10 @@ from prolepsis.scene.shapes.mesh import mesh
 from prolepsis.system.threads import one_thread
 from prolepsis.terms.errors import KnowledgeError, UnknownNameError, brief_list
 
-ROLES = frozenset({"Container", "Stuff", "Liquid", "Furniture", "Floor", "Table", "WetThing", "DirtyThing"})
+ROLES = frozenset({"Container", "Stuff", "Liquid", "Furniture", "Floor", "Table"})
 """Classes that physics or recognition goes by, whatever the kinds."""
 FEATURES = ("lid",)
 """What a shape may have or not."""
-ATTRIBUTES = {"wet": "WetThing", "dirty": "DirtyThing", "broken": "BrokenThing"}
-"""Attributes that controllers may change, and the class of what has them at the start."""
 MESH_SHAPE = "mesh"
 
 
@@ -47,8 +45,11 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
     if len(kb.objects) > MOST_INDIVIDUALS:
         raise KnowledgeError(f"the situation has {len(kb.objects)} individuals; allowed: {MOST_INDIVIDUALS}")
     kinds = sorted(kinds, key=lambda kind: kind.order)
+    begins: dict[str, str] = {}
     for kind in kinds:
-        for name in (*kind.roles, *((kind.claims,) if kind.claims is not None else ())):
+        begin = {each.name: each.begins for each in kind.channels if each.begins is not None}
+        begins |= begin
+        for name in (*kind.roles, *begin.values(), *((kind.claims,) if kind.claims is not None else ())):
             if name not in kb.vocabulary.classes:
                 raise UnknownNameError.of("class", name, kb.vocabulary.classes, type(kind).__name__)
     flowing = {name for kind in kinds for name in kind.flowing(kb)}
@@ -58,7 +59,8 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
     for kind in kinds:
         kind.refuse(kb)
     roles = partial(_roles, kb, ROLES.union(*(kind.roles for kind in kinds)))
-    individuals = Individuals(kb=kb, roles=roles, bodiless=lambda name: _thing(kb, name, roles, None))
+    thing_of = partial(_thing, kb, roles, begins)
+    individuals = Individuals(kb=kb, roles=roles, bodiless=lambda name: thing_of(name, None))
     owners = {name: _owner(kb, name, kinds) for name in wholes}
     below = {subject: place for relation, subject, place in kb.relations() if relation == "on" and subject in wholes}
     # What is in something is lowered into it from above, as what is on something is lowered onto it.
@@ -67,9 +69,9 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
     }
     made: dict[str, Made] = {}
     for name in [name for name in wholes if not owners[name].rests]:
-        made[name] = owners[name].parts(individuals, _thing(kb, name, roles, owners[name].shapes))
+        made[name] = owners[name].parts(individuals, thing_of(name, owners[name].shapes))
     for name in _supporters_first([name for name in wholes if name not in made], below):
-        thing = _thing(kb, name, roles, owners[name].shapes)
+        thing = thing_of(name, owners[name].shapes)
         if name in below:
             under = made[below[name]].things if below[name] in made else ()
             thing = _put_on(thing, below[name], under, resting_height)
@@ -123,8 +125,21 @@ def _supporters_first(names: list[str], below: dict[str, str]) -> list[str]:
     return ordered
 
 
-def _thing(kb: KnowledgeBase, name: str, roles: Roles, later: Collection[str] | None) -> Thing:
-    """Return a whole as a thing at its stated place; shapes that are built ``later`` are left out, at None all."""
+def _thing(
+    kb: KnowledgeBase, roles: Roles, begins: Mapping[str, str], name: str, later: Collection[str] | None
+) -> Thing:
+    """Return a whole as a thing at its stated place.
+
+    Args:
+        kb: The situation.
+        roles: Finds the classes that physics or recognition goes by.
+        begins: The class of the things that have an attribute at the start, by the attribute.
+        name: The whole.
+        later: Shapes that are built later and left out here; all if None.
+
+    Raises:
+        KnowledgeError: If it cannot be simulated.
+    """
     known = kb.quantities(name)
     if "shape" not in known:
         raise KnowledgeError(f"{name} ({kb.kind(name)}) has no shape; state :shape, one of {', '.join(SHAPES)}")
@@ -132,7 +147,7 @@ def _thing(kb: KnowledgeBase, name: str, roles: Roles, later: Collection[str] | 
     shape = str(known["shape"].value)
     quantities = {p: float(k.value) for p, k in known.items() if isinstance(k.value, float)}
     quantities |= {feature: 1.0 for feature in FEATURES if feature in known and known[feature].value == "true"}
-    quantities |= {attribute: 1.0 for attribute, cls in ATTRIBUTES.items() if kb.is_a(name, cls)}
+    quantities |= {attribute: 1.0 for attribute, cls in begins.items() if kb.is_a(name, cls)}
     fixed = kb.is_a(name, "Furniture")
     built = Shape() if later is None or shape in later else _built(kb, name, shape, quantities)
     if not fixed and built.geoms and "mass" not in quantities:

@@ -97,6 +97,8 @@ class Channel:
     """Whether it is logged of all that have it unless something else is chosen."""
     needed: bool = False
     """Whether recognition cannot do without it, so that it is logged in any case."""
+    begins: str | None = None
+    """Class of the things of which it is 1 at the start, as the situation tells; None if of none."""
     read: Callable[[Running, Thing], float] | None = None
     """How it is read; by default it is the attribute of its name, which whoever measures it sets."""
 

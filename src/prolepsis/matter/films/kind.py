@@ -14,8 +14,8 @@ class Films(Kind):
 
     order = 50
     channels = (
-        Channel(name="wet", doc="1 while its surface is wet, else 0"),
-        Channel(name="dirty", doc="1 while stuff sticks to it, else 0"),
+        Channel(name="wet", doc="1 while its surface is wet, else 0", begins="WetThing"),
+        Channel(name="dirty", doc="1 while stuff sticks to it, else 0", begins="DirtyThing"),
     )
 
     def start(self, state: Running) -> Sequence[Controller]:

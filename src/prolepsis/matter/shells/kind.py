@@ -36,7 +36,7 @@ class Shells(Kind):
             role="Breakable",
             default=True,
         ),
-        Channel(name="broken", doc="1 once one of its bonds has detached, else 0"),
+        Channel(name="broken", doc="1 once one of its bonds has detached, else 0", begins="BrokenThing"),
     )
 
     def refuse(self, kb: KnowledgeBase) -> None:
