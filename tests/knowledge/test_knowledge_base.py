@@ -8,6 +8,7 @@ import pytest
 
 from prolepsis.knowledge import KnowledgeBase
 from prolepsis.knowledge.vocabulary import CERTAINTIES
+from prolepsis.terms.errors import KnowledgeError
 
 PREFIX = "@prefix : <https://w3id.org/prolepsis#> .\n"
 PAPER = """
@@ -54,6 +55,32 @@ def test_an_egg_alone_has_its_default_parts(tmp_path: Path) -> None:
     assert base.parts("egg1") == ("eggshell1", "white1", "yolk1")
     assert base.parts("breakfast") == ("breakfast/shell", "breakfast/white", "breakfast/yolk")
     assert base.whole("yolk1") == "egg1"
+
+
+def test_parts_are_named_by_the_class_of_their_whole_and_not_by_its_name(tmp_path: Path) -> None:
+    base = load(
+        tmp_path,
+        ":egg1 a :MandM . :egg2 a :QuailEgg . :egg a :HardBoiledEgg . :eggs3 a :Egg . :quailEgg2 a :QuailEgg .",
+    )
+    assert base.parts("egg1") == ("egg1/kernel", "egg1/shell")
+    assert base.parts("egg2") == ("eggshell2", "white2", "yolk2")
+    assert base.parts("egg") == ("eggshell", "kernel")
+    assert base.parts("eggs3") == ("eggs3/shell", "eggs3/white", "eggs3/yolk")
+    assert base.parts("quailEgg2") == ("quailEgg2/shell", "quailEgg2/white", "quailEgg2/yolk")
+
+
+def test_a_class_says_what_its_default_parts_are_called(tmp_path: Path) -> None:
+    lamp = """@prefix owl: <http://www.w3.org/2002/07/owl#> . @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .
+    :Lamp a owl:Class ; rdfs:subClassOf :Solid ;
+        :defaultPart [ :of :LampShade ; :source "a test" ; :certainty "D" ] .
+    :LampShade a owl:Class ; :needsWhole :Lamp ; rdfs:subClassOf :Solid ; :called "%s" .
+    :lamp7 a :Lamp . :b a :Lamp . """
+    base = load(tmp_path, lamp % "shade")
+    assert (base.parts("lamp7"), base.parts("b")) == (("shade7",), ("b/shade",))
+    with pytest.raises(
+        KnowledgeError, match="parts of class LampShade are called 'Lamp shade'; allowed: small letters"
+    ):
+        load(tmp_path, lamp % "Lamp shade")
 
 
 def test_one_triple_makes_the_hand_wet_and_lowers_its_friction(tmp_path: Path) -> None:

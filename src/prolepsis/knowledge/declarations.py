@@ -128,9 +128,18 @@ def _class(document: Document, iri: URIRef, properties: Mapping[str, Property]) 
         limits=tuple(sorted(_limits(document, iri, properties), key=lambda p: p.name)),
         parts=tuple(sorted(_parts(document, iri), key=lambda p: p.kind)),
         needs_whole=tuple(sorted(local_name(w) for w in graph.objects(iri, PRO.needsWhole) if isinstance(w, URIRef))),
+        called=_word(document, iri),
         alignments=tuple(sorted({str(p) for p in parents + others if _foreign(p)})),
         comment=_text(document, iri, RDFS.comment),
     )
+
+
+def _word(document: Document, iri: URIRef) -> str:
+    word = _text(document, iri, PRO.called)
+    if word and not (word.isascii() and word.isalpha() and word.islower()):
+        told = f"parts of class {local_name(iri)} are called {brief(repr(word))}"
+        raise KnowledgeError(f"{document.where(iri)}: {told}; allowed: small letters")
+    return word
 
 
 def _foreign(iri: Node) -> bool:
@@ -149,6 +158,7 @@ def _joined(first: ClassEntry, second: ClassEntry) -> ClassEntry:
         limits=(*first.limits, *second.limits),
         parts=tuple(sorted((*first.parts, *second.parts), key=lambda p: p.kind)),
         needs_whole=tuple(sorted({*first.needs_whole, *second.needs_whole})),
+        called=first.called or second.called,
         alignments=tuple(sorted({*first.alignments, *second.alignments})),
         comment=first.comment or second.comment,
     )

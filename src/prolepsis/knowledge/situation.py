@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 
 from rdflib import OWL, RDF, RDFS, BNode, URIRef
@@ -234,7 +234,7 @@ def _with_default_parts(situation: Situation, vocabulary: Vocabulary) -> Situati
             missing = [part for part in vocabulary.classes[name].parts if part.unless not in stated]
             stated |= {c for part in missing for c in vocabulary.told_classes((part.kind,))}
             for part in missing:
-                part_name = part_name_of(whole, part.kind)
+                part_name = part_name_of(whole, above, part.kind, vocabulary)
                 if part_name in classes:
                     raise KnowledgeError(
                         f"{places[part_name]}: {part_name} is part of nothing, and {whole} would have a part of that "
@@ -256,13 +256,23 @@ def _with_default_parts(situation: Situation, vocabulary: Vocabulary) -> Situati
     )
 
 
-def part_name_of(whole: str, kind: str) -> str:
-    """Return the name of a default part: ``eggshell1`` of ``egg1``, ``breakfast/shell`` of ``breakfast``."""
-    short = re.findall("[A-Z]?[^A-Z]+", kind)[-1].lower()
-    number = whole.removeprefix("egg")
-    if whole.startswith("egg") and (number.isdigit() or not number):
-        return f"eggshell{number}" if short == "shell" else f"{short}{number}"
-    return f"{whole}/{short}"
+def part_name_of(whole: str, above: Collection[str], kind: str, vocabulary: Vocabulary) -> str:
+    """Return the name of a default part: ``eggshell1`` of the egg ``egg1``, ``breakfast/shell`` of ``breakfast``.
+
+    Args:
+        whole: What it is a part of.
+        above: The classes of that.
+        kind: Its own class.
+        vocabulary: What these classes say.
+    """
+    entries = [vocabulary.classes[name] for name in vocabulary.told_classes((kind,))]
+    called = next((entry.called for entry in entries if entry.called), "")
+    owners = {owner for entry in entries for owner in entry.needs_whole} & {*above}
+    word = whole.rstrip("0123456789")
+    # Two wholes of one class differ in their numbers, and so do parts of the class that need such a whole.
+    if called and word in {owner[0].lower() + owner[1:] for owner in owners}:
+        return f"{called}{whole[len(word) :]}"
+    return f"{whole}/{re.findall('[A-Z]?[^A-Z]+', kind)[-1].lower()}"
 
 
 def _refuse_loose_parts(situation: Situation, vocabulary: Vocabulary) -> None:

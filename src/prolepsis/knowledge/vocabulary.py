@@ -149,6 +149,9 @@ class ClassEntry:
     """Default parts."""
     needs_whole: tuple[str, ...] = ()
     """Its individuals must be parts of one of these classes."""
+    called: str = ""
+    """What a default part of it is called, before its whole's number, where the whole is named as its class: ``white``
+    of ``egg1``; empty if it is always called after its whole."""
     alignments: tuple[str, ...] = ()
     """IRIs of other ontologies that it corresponds to."""
     comment: str = ""
