@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from tests.fluents.logs import Draft, floor, solid_box
-from tests.fluents.worlds import ever, of_type, times
+from tests.fluents.worlds import FLOOR, HAND, HAND_DRIVES, drive, ever, of_type, ramp, times, watch, world
 
 from prolepsis.fluents import recognize
 from prolepsis.geometry.shape import Geom, Shape
@@ -81,6 +83,33 @@ def test_without_a_logged_state_the_gap_between_the_fingers_tells() -> None:
     assert abs(end - 0.5) < 0.02
     assert len(times(timeline, "openingGripper(rightGripper)")) == 1
     assert "moving(rightGripper)" not in ever(timeline)
+
+
+def closing(*things: Thing) -> bool:
+    """Return whether a gripper is seen to close whose two last parts come together."""
+    draft = Draft(500, [floor(), *things])
+    draft.carrier[:, draft.index(things[0].name)] = -1
+    for part, way in zip(things[-2:], (-1.0, 1.0), strict=True):
+        draft.poses[:, draft.index(part.name), 1] += way * np.linspace(0, 0.05, 500)
+    return f"closingGripper({things[0].name})" in ever(recognize(draft.log()))
+
+
+def test_a_finger_is_what_is_told_to_be_one_or_where_the_joints_end_whatever_it_is_called() -> None:
+    whole, palm, left, right = hand()
+    assert closing(whole, palm, replace(left, name="rightGripper/a"), replace(right, name="rightGripper/b"))
+    unknown = [replace(part, kind="Thing") for part in (left, right)]
+    # A palm, and two parts beside it of which nothing is told but their names: any two may be the fingers.
+    assert not closing(whole, palm, *unknown)
+    assert closing(whole, palm, *(replace(part, roles=frozenset({"Finger"})) for part in unknown))
+    assert closing(whole, palm, *(replace(part, whole=palm.name) for part in unknown))
+
+
+def test_a_hand_of_a_model_closes_whatever_its_fingers_are_called() -> None:
+    for name in ("finger", "jaw"):
+        xml = world(FLOOR + HAND.replace("_finger", f"_{name}"), HAND_DRIVES)
+        gripper = {"hand": Thing(name="hand", kind="Hand", roles=frozenset({"Gripper"}))}
+        control = drive(lambda _: 0.0, lambda _: 0.0, lambda t: ramp(t, 0.1, 0.2, 2.0))
+        assert "closingGripper(hand)" in ever(watch(xml, 0.6, control, gripper))
 
 
 def test_a_grip_attaches_when_nothing_else_carries() -> None:

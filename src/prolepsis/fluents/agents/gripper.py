@@ -61,9 +61,22 @@ def gripper_states(observation: Observation) -> dict[str, FloatArray]:
 
 
 def _fingers(observation: Observation, unit: int) -> list[int]:
+    """Return the parts of a gripper that are told to be of class Finger; if none is, the bodies in which it ends."""
     parts = [i for i in np.flatnonzero(observation.unit == unit).tolist() if i != unit]
-    named = [i for i in parts if observation.has_role(i, "Finger")]
-    return named or [i for i in parts if "finger" in observation.log.things[i].name.lower().rsplit("/")[-1]]
+    return [i for i in parts if observation.has_role(i, "Finger")] or _ends(observation, unit)
+
+
+def _ends(observation: Observation, unit: int) -> list[int]:
+    """Return the rigid bodies of a unit, but itself, that have no other one as a part."""
+    things, bodies = observation.log.things, observation.bodies(unit)
+    whole = {thing.name: thing.whole for thing in things}
+    bearing: set[str | None] = set()
+    for body in bodies:
+        above = things[body].whole
+        while above is not None and above not in bearing:
+            bearing.add(above)
+            above = whole.get(above)
+    return [body for body in bodies if body != unit and things[body].name not in bearing]
 
 
 def _from_gap(observation: Observation, fingers: list[int]) -> FloatArray:
