@@ -74,11 +74,13 @@ def resistance(q: Mapping[str, float]) -> Resistance:
     radius, foot = _foot(q)
     along, up = q["radius"] - radius, q["height"] - foot
     lever = math.hypot(along, up)
-    if "bucklingForce" in q and "bucklingWay" in q:
+    if "bucklingForce" in q and "bucklingDisplacement" in q:
         moment = q["bucklingForce"] * lever
-        return Resistance(lever=lever, moment=moment, stiffness=moment * lever / q["bucklingWay"])
+        return Resistance(lever=lever, moment=moment, stiffness=moment * lever / q["bucklingDisplacement"])
     if "yieldStress" not in q or "youngsModulus" not in q:
-        raise KnowledgeError("its wall gives way, but neither bucklingForce and bucklingWay nor yieldStress are known")
+        raise KnowledgeError(
+            "its wall gives way, but neither bucklingForce and bucklingDisplacement nor yieldStress are known"
+        )
     stress, thickness, count = q["yieldStress"], q["thickness"], q["panelCount"]
     wall = bowl(q).wall
     rings = 50
