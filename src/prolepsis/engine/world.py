@@ -150,13 +150,13 @@ class _Making:
         _rule_contact(geom, thing, self.ranks, rolls=rolls)
 
     def add_hinge(
-        self, thing: str, place: Triple, axis: Triple, stiffness: float, damping: float, armature: float
+        self, thing: str, position: Triple, axis: Triple, stiffness: float, damping: float, armature: float
     ) -> None:
         """Give the body of a thing a hinge of its name, in its own frame, with a spring [N m/rad, N m s/rad, kg m2]."""
         self.spec.body(thing).add_joint(
             name=thing,
             type=mujoco.mjtJoint.mjJNT_HINGE,
-            pos=list(place),
+            pos=list(position),
             axis=list(axis),
             stiffness=[stiffness, 0, 0],
             damping=[damping, 0, 0],
@@ -199,7 +199,7 @@ def add_geom(
     mass: float,
     offset: Triple = (0.0, 0.0, 0.0),
 ) -> Any:
-    """Add one geom of a thing to a body and return it; ``offset`` is the thing's place in the body [m]."""
+    """Add one geom of a thing to a body and return it; ``offset`` is the thing's position in the body [m]."""
     geom = thing.shape.geoms[number]
     made = body.add_geom(name=f"{thing.name}/{number}", type=getattr(mujoco.mjtGeom, f"mjGEOM_{geom.type.upper()}"))
     if geom.type == "mesh":

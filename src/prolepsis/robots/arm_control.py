@@ -114,7 +114,7 @@ class ArmHand:
             self._target, self._lag, self._idle = None, 0.0, 0
             self._joints, self._rates = np.array(command.joints), np.array(command.speeds)
             self._offset = command.offset
-            self._turn = command.rotation if self.ways.turns_freely else self.ways.place(self._joints)[1]
+            self._turn = command.rotation if self.ways.turns_freely else self.ways.pose(self._joints)[1]
         else:
             self.gripper.accept(command)
 
@@ -141,9 +141,9 @@ class ArmHand:
         here = self._commanded()[:3]
         goal = np.array(self._first) + target.offset
         self._lag = float(np.linalg.norm(goal - here))
-        place = here + CATCHING_UP * (goal - here) + fresh * np.array(target.velocity)
+        position = here + CATCHING_UP * (goal - here) + fresh * np.array(target.velocity)
         yaw, pitch, roll = (a + fresh * s for a, s in zip(target.rotation, target.angular_velocity, strict=True))
-        pose = np.array([*place, *turned(self._reference, (yaw, pitch, roll))])
+        pose = np.array([*position, *turned(self._reference, (yaw, pitch, roll))])
         self._rates = self._kinematics.step(self._joints, relative_pose(self._mount_pose(), pose), ahead)
 
     def measure(self, forces: list[tuple[int, int, int, float]]) -> None:

@@ -1,4 +1,4 @@
-"""Ways of one arm: along given places, or to a place by any way on which nothing is touched."""
+"""Ways of one arm: along given poses, or to a pose by any way on which nothing is touched."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from prolepsis.system.mujoco import mujoco
 FINEST = 0.03
 """Two postures that are looked at for collisions differ by at most this much in each joint [rad]."""
 VIA_HEIGHTS = (0.1, 0.2, 0.3)
-"""If the straight way is blocked, the arm goes through a place this far above the goal [m]."""
+"""If the straight way is blocked, the arm goes through a position this far above the goal [m]."""
 SEARCHES = 6
 """Searches for a posture start where the arm is, at home, and at so many others between home and the ranges' ends."""
 REACH = 0.6
@@ -65,11 +65,11 @@ class ArmPaths:
         self._mount = int(state.model.body(self._mount_name).id)
         self._scratch = mujoco.MjData(state.model)
 
-    def bearing(self, place: Triple) -> float:
-        """Return the yaw from the first orientation in which a place in the world lies from the shoulder [rad]."""
+    def bearing(self, position: Triple) -> float:
+        """Return the yaw from the first orientation in which a position in the world lies from the shoulder [rad]."""
         assert self._state is not None
         shoulder = compose_pose(self._mount_pose(), self._kinematics.shoulder)
-        way = [a - float(b) for a, b in zip(place, shoulder[:3], strict=True)]
+        way = [a - float(b) for a, b in zip(position, shoulder[:3], strict=True)]
         x, y, _ = rotated(inverse(self._reference), (way[0], way[1], way[2]))
         return float(np.arctan2(y, x))
 
@@ -78,24 +78,24 @@ class ArmPaths:
         return self._gap.held_at(width)
 
     def feasible(self, offset: Triple, rotation: Triple) -> Triple:
-        """Return the nearest turn to ``turn`` that is possible at a place: an arm of five joints cannot have all."""
+        """Return the nearest rotation that is possible at an offset: an arm of five joints cannot have all."""
         if self.turns_freely:
             return rotation
         pose, starts = self._seen(np.asarray(offset), np.asarray(rotation)), (self.joints, self._kinematics.home)
         if any(self._kinematics.solve(pose, start).is_there for start in starts):
             return rotation
         yawed = (self._kinematics.solve(pose, start, any_yaw=True) for start in starts)
-        return next((self.place(found.joints)[1] for found in yawed if found.is_there), rotation)
+        return next((self.pose(found.joints)[1] for found in yawed if found.is_there), rotation)
 
-    def place(self, joints: FloatArray) -> tuple[Triple, Triple]:
-        """Return place and turn of the hand with the given coordinates [rad], shape (n,)."""
+    def pose(self, joints: FloatArray) -> tuple[Triple, Triple]:
+        """Return offset and rotation of the hand with the given coordinates [rad], shape (n,)."""
         pose = [float(v) for v in compose_pose(self._mount_pose(), self._kinematics.pose(joints))]
         x, y, z = self._first
         return (pose[0] - x, pose[1] - y, pose[2] - z), angles_of(self._reference, (pose[3], pose[4], pose[5], pose[6]))
 
     def path(self, offsets: FloatArray, rotations: FloatArray, *, loose: bool = False) -> JointPath:
-        """Return the joints along places and turns, each shape (k, 3); ``loose`` turns may be off about the vertical
-        where an arm of five joints cannot have them."""
+        """Return the joints along offsets and rotations, each shape (k, 3); ``loose`` ones may be off about the
+        vertical where an arm of five joints cannot have them."""
         joints: list[FloatArray] = []
         now = self.joints
         for offset, rotation in zip(offsets, rotations, strict=True):
@@ -117,7 +117,7 @@ class ArmPaths:
         opening: float | None = None,
         held: str | None = None,
     ) -> JointPath:
-        """Return how the hand gets to a place by any way on which nothing is touched, but by its fingers what is
+        """Return how the hand gets to a pose by any way on which nothing is touched, but by its fingers what is
         ignored; with its pads ``opening`` [m] apart, or as they are, and with what it holds."""
         assert self._state is not None
         self._scratch.qpos[:] = self._state.data.qpos
@@ -172,7 +172,7 @@ class ArmPaths:
             yield self._kinematics.solve(pose, start)
 
     def _courses(self, goal: FloatArray, offset: FloatArray, rotation: FloatArray) -> Iterator[list[FloatArray]]:
-        """Yield postures to go through: straight to the goal, or through a place above it."""
+        """Yield postures to go through: straight to the goal, or through a position above it."""
         yield [self.joints, goal]
         for height in VIA_HEIGHTS:
             above = self._kinematics.solve(self._seen(offset + (0.0, 0.0, height), rotation), goal)
@@ -221,10 +221,10 @@ class ArmPaths:
         return np.array([*data.xpos[self._mount], *data.xquat[self._mount]])
 
     def _seen(self, offset: FloatArray, rotation: FloatArray) -> FloatArray:
-        """Return a place and a turn of the hand as a pose seen from the mount, shape (7,)."""
+        """Return an offset and a rotation of the hand as a pose seen from the mount, shape (7,)."""
         yaw, pitch, roll = (float(a) for a in rotation)
-        place = [f + float(o) for f, o in zip(self._first, offset, strict=True)]
-        return relative_pose(self._mount_pose(), np.array([*place, *turned(self._reference, (yaw, pitch, roll))]))
+        position = [f + float(o) for f, o in zip(self._first, offset, strict=True)]
+        return relative_pose(self._mount_pose(), np.array([*position, *turned(self._reference, (yaw, pitch, roll))]))
 
 
 def name_of(state: Running, body: int) -> str:

@@ -142,8 +142,8 @@ class ArmSense(Protocol):
         """Greatest accelerations of the joints that are commanded [rad/s^2], shape (n,)."""
         ...
 
-    def bearing(self, place: Triple) -> float:
-        """Return the yaw in which a place in the world lies from the shoulder [rad]."""
+    def bearing(self, position: Triple) -> float:
+        """Return the yaw in which a position in the world lies from the shoulder [rad]."""
         ...
 
     def held_at(self, width: float) -> tuple[float, float]:
@@ -151,16 +151,16 @@ class ArmSense(Protocol):
         ...
 
     def feasible(self, offset: Triple, rotation: Triple) -> Triple:
-        """Return the nearest turn to ``turn`` that is possible at a place: an arm of five joints cannot have all."""
+        """Return the nearest rotation that is possible at an offset: an arm of five joints cannot have all."""
         ...
 
-    def place(self, joints: FloatArray) -> tuple[Triple, Triple]:
-        """Return place and turn of the hand with the given coordinates [rad], shape (n,)."""
+    def pose(self, joints: FloatArray) -> tuple[Triple, Triple]:
+        """Return offset and rotation of the hand with the given coordinates [rad], shape (n,)."""
         ...
 
     def path(self, offsets: FloatArray, rotations: FloatArray, *, loose: bool = False) -> JointPath:
-        """Return the joints along places and turns one after the other, each shape (k, 3), from where they are;
-        ``loose`` turns may be off about the vertical where an arm of five joints cannot have them."""
+        """Return the joints along offsets and rotations one after the other, each shape (k, 3), from where they are;
+        ``loose`` ones may be off about the vertical where an arm of five joints cannot have them."""
         ...
 
     def way(
@@ -171,7 +171,7 @@ class ArmSense(Protocol):
         opening: float | None = None,
         held: str | None = None,
     ) -> JointPath:
-        """Return how the hand gets to a place by any way on which nothing is touched, but by its fingers what is
+        """Return how the hand gets to a pose by any way on which nothing is touched, but by its fingers what is
         ignored; with its pads ``opening`` [m] apart, or as they are, and with what it holds."""
         ...
 

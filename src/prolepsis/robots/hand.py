@@ -73,7 +73,7 @@ class Hand:
 
         Args:
             name: Name of the hand.
-            position: Place of the hand's frame [m].
+            position: Position of the hand's frame [m].
             orientation: Unit quaternion of the hand's frame (w, x, y, z).
             opening: Initial gap between the pads [m].
             friction: Sliding friction of the pads [1].
@@ -117,13 +117,13 @@ class Hand:
             parts.append((side, shape, sign * opening / 2, self.finger_mass))
         made = [whole]
         for part, shape, offset, mass in parts:
-            place = np.asarray(position) + rotated(orientation, (0.0, offset, 0.0))
+            aside = rotated(orientation, (0.0, offset, 0.0))
             made.append(
                 Thing(
                     name=f"{name}/{part}",
                     kind=PART_KIND,
                     shape=shape,
-                    position=(float(place[0]), float(place[1]), float(place[2])),
+                    position=triple(np.asarray(position) + aside),
                     orientation=orientation,
                     mass=mass,
                     whole=name,

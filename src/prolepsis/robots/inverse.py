@@ -24,7 +24,7 @@ POSTURE_COST = 1.0e-3
 """Weight of staying near the home posture, against 1 for each metre and radian of the gripper's frame: it decides where
 the elbow goes and moves the gripper by less than a tenth of a millimetre."""
 WEIGHTS = np.array([1.0, 1.0, 1.0, 0.5, 0.5, 0.5])
-"""Of place and orientation [1/m, 1/rad]."""
+"""Of position and orientation [1/m, 1/rad]."""
 NO_ROWS = np.zeros((0, 16))
 """The quadratic program has bounds on the joints and nothing else."""
 DAMPING = 1.0e-6
@@ -32,7 +32,7 @@ DAMPING = 1.0e-6
 CLOSE, TURNED = 5.0e-4, 2.0e-3
 """A solution is at most this far from where the gripper should be [m, rad]."""
 EXACT = 2.0e-5
-"""A search ends here, so that solutions for neighbouring places lie evenly [m + rad]."""
+"""A search ends here, so that solutions for neighbouring positions lie evenly [m + rad]."""
 STEPS = 60
 """Iterations before a search from one start gives up ..."""
 PATIENCE, PROGRESS = 6, 0.9

@@ -193,13 +193,13 @@ def _homes(
         if given.home is None:
             continue
         _refuse_count("home", given.home, chains[name], where[name])
-        for joint, place in zip(chains[name], given.home, strict=True):
+        for joint, position in zip(chains[name], given.home, strict=True):
             low, high = (float(value) for value in model.joint(joint).range)
-            if model.jnt_limited[model.joint(joint).id] and not low <= place <= high:
-                raise ScenarioError(f"{where[name]}: home of {joint} is {place:g}, allowed {low:.4g} to {high:.4g}")
-            homes[joint] = place
+            if model.jnt_limited[model.joint(joint).id] and not low <= position <= high:
+                raise ScenarioError(f"{where[name]}: home of {joint} is {position:g}, allowed {low:.4g} to {high:.4g}")
+            homes[joint] = position
     # Fingers are where the situation says that the gripper is open.
-    return {name: place for name, place in homes.items() if name not in _coupled(model)}
+    return {name: position for name, position in homes.items() if name not in _coupled(model)}
 
 
 def _refuse_count(what: str, given: Sequence[float], joints: Sequence[str], where: str) -> None:
@@ -209,8 +209,8 @@ def _refuse_count(what: str, given: Sequence[float], joints: Sequence[str], wher
 
 def _at_home(model: Any, homes: dict[str, float]) -> Any:
     data = mujoco.MjData(model)
-    for name, place in homes.items():
-        data.joint(name).qpos[0] = place
+    for name, position in homes.items():
+        data.joint(name).qpos[0] = position
     follow_couplings(model, data)
     mujoco.mj_forward(model, data)
     return data
@@ -227,11 +227,11 @@ def _inertias(model: Any, data: Any, grippers: Sequence[OwnGripper]) -> FloatArr
 
 
 def _motion(model: Any, data: Any, given: OwnGripper) -> FloatArray:
-    """Return how the place where a gripper holds moves with each joint [m], shape (3, n)."""
+    """Return how the point where a gripper holds moves with each joint [m], shape (3, n)."""
     palm = int(model.body(given.palm).id)
-    place = data.xpos[palm] + data.xmat[palm].reshape(3, 3) @ np.array(given.tool)
+    point = data.xpos[palm] + data.xmat[palm].reshape(3, 3) @ np.array(given.tool)
     result = np.zeros((3, model.nv))
-    mujoco.mj_jac(model, data, result, None, place, palm)
+    mujoco.mj_jac(model, data, result, None, point, palm)
     return result
 
 

@@ -170,8 +170,8 @@ def _efforts(model: Any) -> dict[str, float]:
 def _home(model: Any) -> dict[str, float]:
     for key in range(model.nkey):
         if model.key(key).name == "home":
-            places = model.key_qpos[key]
-            return {model.joint(j).name: float(places[model.jnt_qposadr[j]]) for j in range(model.njnt)}
+            positions = model.key_qpos[key]
+            return {model.joint(j).name: float(positions[model.jnt_qposadr[j]]) for j in range(model.njnt)}
     return {}
 
 

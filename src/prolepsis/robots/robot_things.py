@@ -41,7 +41,7 @@ def robot_things(
     Args:
         kb: The situation.
         robot: What it is.
-        whole: The robot as a thing at its place, without a body.
+        whole: The robot as a thing at its pose, without a body.
         gripper_thing: Makes a gripper of the situation a thing without a body.
 
     Raises:
@@ -65,9 +65,9 @@ def robot_things(
     made: dict[str | None, list[Thing]] = {None: [robot_thing]}
     for arm in robot.arms:
         palm = read.model.body(arm.gripper.palm).id
-        rotation, place = quaternion(data.xquat[palm]), triple(data.xpos[palm])
-        place = _sum(place, triple(rotated(rotation, arm.gripper.tool)))
-        position, orientation = _placed(whole, place, product(rotation, arm.gripper.tool_orientation))
+        rotation = quaternion(data.xquat[palm])
+        held = _sum(triple(data.xpos[palm]), triple(rotated(rotation, arm.gripper.tool)))
+        position, orientation = _placed(whole, held, product(rotation, arm.gripper.tool_orientation))
         found = gripper_thing(arm.name)
         limits = {
             "opening": openings[arm.name],

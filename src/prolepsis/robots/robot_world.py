@@ -21,7 +21,7 @@ FIRST_ARM, MOST_ARMS = 4, 29
 
 
 def add_robot(spec: Any, robot: Robot, thing: Thing, arms: Sequence[str]) -> None:
-    """Attach a robot to a world at the place of ``thing``, with servos for its joints and motors for its grippers.
+    """Attach a robot to a world at the pose of ``thing``, with servos for its joints and motors for its grippers.
 
     Args:
         spec: The ``mujoco.MjSpec`` of the world.

@@ -56,7 +56,8 @@ class Trunk:
         if self._fresh and len(self._servos):
             self._fresh = False
             self._data.ctrl[self._servos] = [
-                place + lag * speed for (place, speed), lag in zip(self._targets.values(), self._lags, strict=True)
+                position + lag * speed
+                for (position, speed), lag in zip(self._targets.values(), self._lags, strict=True)
             ]
 
     def sense(self) -> RobotSense:
@@ -65,7 +66,7 @@ class Trunk:
         neck = self._data.xanchor[self._neck] if self._neck >= 0 else self._data.xpos[self._facing]
         x, y, z = (float(value) for value in neck)
         return RobotSense(
-            joints={name: place for name, (place, _) in self._targets.items()},
+            joints={name: position for name, (position, _) in self._targets.items()},
             speeds=self._speeds,
             accelerations=self._accelerations,
             ranges=self._ranges,

@@ -18,7 +18,7 @@ _NAME = re.compile(r"[a-z]\w*", re.ASCII)
 _Number = Annotated[float, Field(ge=-1.0e4, le=1.0e4)]
 """A coordinate or a direction [m, rad or 1]."""
 _Near = Annotated[float, Field(ge=-10.0, le=10.0)]
-"""A place seen from the palm [m]."""
+"""A position seen from the palm [m]."""
 _Positive = Annotated[float, Field(gt=0.0, le=1.0e9)]
 Name = Annotated[str, Field(max_length=200)]
 """What the model calls a body or a joint."""

@@ -74,7 +74,7 @@ class Building(Protocol):
         ...
 
     def add_hinge(
-        self, thing: str, place: Triple, axis: Triple, stiffness: float, damping: float, armature: float
+        self, thing: str, position: Triple, axis: Triple, stiffness: float, damping: float, armature: float
     ) -> None:
         """Give the body of a thing a hinge of its name, in its own frame, with a spring [N m/rad, N m s/rad, kg m2]."""
         ...

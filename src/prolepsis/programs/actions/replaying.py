@@ -153,7 +153,7 @@ def _replay_joints(hand: Thing, sense: Sense, recording: Recording, ticks: Float
     rates[-1] = 0.0
     grips = _grips(recording, hand, len(start))
     for k, (joints, rate) in enumerate(zip(course, rates, strict=True)):
-        offset, rotation = arm.place(joints)
+        offset, rotation = arm.pose(joints)
         speeds = tuple(map(float, rate))
         target = ArmTarget(
             hand=hand.name, joints=tuple(map(float, joints)), speeds=speeds, offset=offset, rotation=rotation

@@ -69,9 +69,9 @@ class Gap:
         return self.gaps[-1]
 
     def _at(self, values: tuple[float, ...], length: float) -> float:
-        place = (length - self.first) / self.step
-        k = min(max(int(place), 0), len(values) - 2)
-        return values[k] + (place - k) * (values[k + 1] - values[k])
+        row = (length - self.first) / self.step
+        k = min(max(int(row), 0), len(values) - 2)
+        return values[k] + (row - k) * (values[k + 1] - values[k])
 
     def length(self, gap: float) -> float:
         """Return the tendon length at which the gap is ``gap`` [m]; the nearest one in the table."""

@@ -60,7 +60,7 @@ class JawTable:
 class Jaw(EffectorKind[JawTable]):
     """A fixed jaw and a moving one, whose pads are not parallel: what is between is pinched at the fixed one.
 
-    The gap is how far the moving pad is from the place on the fixed one where things are held. How fast it grows with
+    The gap is how far the moving pad is from the point on the fixed one where things are held. How fast it grows with
     the angle is the lever by which the hinge's torque becomes a pad's force there.
     """
 
@@ -95,7 +95,7 @@ class Jaw(EffectorKind[JawTable]):
         return pinching(self.name, model, joints, pads, across, given, where)
 
     def gap(self, spec: Any, model: Any, effector: Effector, where: str) -> Gap:
-        """Return how far the moving pad is from the place on the fixed one where things are held."""
+        """Return how far the moving pad is from the point on the fixed one where things are held."""
         fixed, moving = effector.surfaces or effector.pads
         foot = _foot(spec, effector.palm, fixed, effector.tool, where)
         half = float(np.linalg.norm(np.array(effector.tool) - foot))
@@ -117,7 +117,7 @@ class Jaw(EffectorKind[JawTable]):
 
 
 class JawControl(GripperControl):
-    """The controller of a jaw: its lever is that of the place where the moving pad is touched, as it is felt."""
+    """The controller of a jaw: its lever is that of the point where the moving pad is touched, as it is felt."""
 
     def __init__(self, state: Running, drive: Drive, hinge: str) -> None:
         """Take over a jaw as it is."""
@@ -150,10 +150,10 @@ def _range(probed: Any, jaw: str, pads: tuple[str, str], low: float, high: float
         ScenarioError: If there is none.
     """
     data, geoms = mujoco.MjData(probed), [pad_geoms(probed, pad) for pad in pads]
-    places = np.linspace(low, high, TABLE)
+    angles = np.linspace(low, high, TABLE)
     ways, gaps = np.zeros(TABLE), np.zeros(TABLE)
-    for k, place in enumerate(places.tolist()):
-        data.joint(jaw).qpos[0] = place
+    for k, angle in enumerate(angles.tolist()):
+        data.joint(jaw).qpos[0] = angle
         mujoco.mj_kinematics(probed, data)
         ways[k], gaps[k] = pad_distance(probed, data, *geoms), _gap(probed, data, pads[1])
     first = int(np.flatnonzero(ways <= 0.0).max(initial=-1)) + 1
@@ -162,7 +162,7 @@ def _range(probed: Any, jaw: str, pads: tuple[str, str], low: float, high: float
     last = first + (int(slow[0]) if len(slow) else len(rises))
     if last <= first:
         raise ScenarioError(f"{where}: its pads {pads[0]} and {pads[1]} do not part where the jaw {jaw} opens")
-    return float(places[first]), float(places[last])
+    return float(angles[first]), float(angles[last])
 
 
 def _gap(probed: Any, data: Any, pad: str) -> float:
@@ -171,7 +171,7 @@ def _gap(probed: Any, data: Any, pad: str) -> float:
 
 
 def _foot(spec: Any, palm: str, pad: str, tool: Triple, where: str) -> FloatArray:
-    """Return the place on the fixed pad that is nearest to where things are held, in the palm's frame [m], shape (3,).
+    """Return the point on the fixed pad that is nearest to where things are held, in the palm's frame [m], shape (3,).
 
     Raises:
         ScenarioError: If things would be held inside the pad.
@@ -190,9 +190,9 @@ def _foot(spec: Any, palm: str, pad: str, tool: Triple, where: str) -> FloatArra
     return body.xmat.reshape(3, 3).T @ (segments[int(np.argmin(ways))][3:] - body.xpos)
 
 
-def _with_probe(spec: Any, palm: str, place: Triple | FloatArray) -> Any:
-    """Return the model of a robot with a point at a place on its palm [m]."""
+def _with_probe(spec: Any, palm: str, position: Triple | FloatArray) -> Any:
+    """Return the model of a robot with a point at a position on its palm [m]."""
     probed = spec.copy()
-    probe = probed.body(palm).add_geom(name=PROBE, type=mujoco.mjtGeom.mjGEOM_SPHERE, pos=list(place), mass=0.0)
+    probe = probed.body(palm).add_geom(name=PROBE, type=mujoco.mjtGeom.mjGEOM_SPHERE, pos=list(position), mass=0.0)
     probe.size, probe.contype, probe.conaffinity = [POINT, 0.0, 0.0], 0, 0
     return probed.compile()

@@ -107,7 +107,7 @@ class Parallel(EffectorKind[ParallelTable]):
         between = [(pad, data.body(pad).xmat.reshape(3, 3).T @ (tool - data.body(pad).xpos)) for pad in effector.pads]
 
         def measure(data: Any) -> tuple[float, float, float]:
-            moved = [data.body(pad).xpos + data.body(pad).xmat.reshape(3, 3) @ place for pad, place in between]
+            moved = [data.body(pad).xpos + data.body(pad).xmat.reshape(3, 3) @ point for pad, point in between]
             return pad_distance(model, data, *pads), float(forward @ (np.mean(moved, axis=0) - tool)), 0.0
 
         return tabulated(model, effector, measure, where)

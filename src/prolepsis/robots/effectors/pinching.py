@@ -123,7 +123,7 @@ def tabulated(model: Any, effector: Effector, measure: Callable[[Any], tuple[flo
     Args:
         model: The robot's model.
         effector: What it pinches with.
-        measure: Returns gap, and place of what is held along x and y of the frame [m], from ``mujoco.MjData``.
+        measure: Returns gap, and position of what is held along x and y of the frame [m], from ``mujoco.MjData``.
         where: Where the effector is told of.
 
     Raises:
@@ -224,11 +224,11 @@ def _opens_backwards(model: Any, joint: str, pads: Sequence[str], low: float, hi
     """Return whether the pads are farther apart where the coordinate of a joint is low."""
     data, gaps = mujoco.MjData(model), list[float]()
     first, second = (pad_geoms(model, pad) for pad in pads)
-    for place in (low, high):
-        data.joint(joint).qpos[0] = place
+    for position in (low, high):
+        data.joint(joint).qpos[0] = position
         follow_couplings(model, data)
         # The joint itself may have followed another one.
-        data.joint(joint).qpos[0] = place
+        data.joint(joint).qpos[0] = position
         mujoco.mj_kinematics(model, data)
         gaps.append(pad_distance(model, data, first, second))
     return gaps[0] > gaps[1]
