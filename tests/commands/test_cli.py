@@ -15,10 +15,12 @@ import pytest
 from tests.synthetic import egg_drop_log
 
 from prolepsis.cli import main
+from prolepsis.engine.channels import CHANNELS
 from prolepsis.fluents import recognize
 from prolepsis.log.files import write_log_files
 from prolepsis.log.saved import write_timeline_files
 from prolepsis.log.sealed import write_sealed
+from prolepsis.matter.kinds import known_kinds
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -117,7 +119,7 @@ def test_timeline_prints_a_table(saved: Path, capfd: pytest.CaptureFixture[str])
     assert any("breaking(egg1)" in line for line in lines)
 
 
-@pytest.mark.parametrize("section", ["objects", "actions", "conditions", "fluents", "events", "examples"])
+@pytest.mark.parametrize("section", ["objects", "actions", "conditions", "fluents", "events", "channels", "examples"])
 def test_list_prints_a_line_each(section: str, capfd: pytest.CaptureFixture[str]) -> None:
     assert main(["list", section]) == 0
     lines = capfd.readouterr().out.splitlines()
@@ -127,6 +129,7 @@ def test_list_prints_a_line_each(section: str, capfd: pytest.CaptureFixture[str]
         "conditions": "pressed(Object, Other, Force)  The two are pressed together",
         "fluents": "supports(",
         "events": "breaking(",
+        "channels": "load         Breakable     by default  the greatest bond load",
         "examples": "dropped_egg.toml",
     }
     assert any(expected[section] in line for line in lines)
@@ -142,8 +145,21 @@ def test_list_without_a_section_lists_all(capfd: pytest.CaptureFixture[str]) -> 
         "conditions:",
         "fluents:",
         "events:",
+        "channels:",
         "examples:",
     ]
+
+
+def test_every_channel_of_every_kind_is_listed_and_described(capfd: pytest.CaptureFixture[str]) -> None:
+    assert main(["list", "channels"]) == 0
+    rows = {line.split()[0]: line for line in capfd.readouterr().out.splitlines()}
+    known = [*CHANNELS, *(each for kind in known_kinds() for each in kind.channels)]
+    assert set(rows) == {each.name for each in known}
+    for each in known:
+        assert each.doc in rows[each.name]
+        assert (each.role or "all") in rows[each.name]
+        assert main(["describe", each.name]) == 0
+        assert f"{each.name}: channel of each {each.role or 'thing'}, logged" in capfd.readouterr().out
 
 
 @pytest.mark.parametrize(

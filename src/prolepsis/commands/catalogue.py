@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from prolepsis.log.fact_types import FactType
     from prolepsis.programs import ActionSpec
     from prolepsis.programs.action import ParameterSpec
+    from prolepsis.scene.kind import Channel
 
 LIST_EXAMPLE = """\
   prolepsis list actions
@@ -29,7 +30,7 @@ DESCRIBE_EXAMPLE = """\
   prolepsis describe friction
 """
 
-Rows = Iterable[tuple[str, str]]
+Rows = Iterable[tuple[str, ...]]
 
 
 def add_to(commands: Any) -> None:
@@ -72,18 +73,21 @@ def describe(name: str) -> str:
     from prolepsis.programs import ACTIONS
     from prolepsis.programs.conditions import CONDITIONS
 
-    knowledge, facts = _knowledge(), _facts()
+    knowledge, facts, channels = _knowledge(), _facts(), _known_channels()
     vocabulary = knowledge.vocabulary
     fact = facts.get(name[:1].lower() + name[1:])
     found = [_class(vocabulary.classes[name], knowledge)] if name in vocabulary.classes else []
     found += [_action(ACTIONS[name])] if name in ACTIONS else []
     found += [_condition(name)] if name in CONDITIONS else []
     found += [f"{_usage(fact)}: {fact.kind}\n  {fact.doc}"] if fact is not None else []
+    found += [_channel(channels[name])] if name in channels else []
     found += [_property(vocabulary.properties[name], knowledge)] if name in vocabulary.properties else []
     found += [_individual(name, knowledge)] if name in knowledge.individuals else []
     if not found:
-        known = {*vocabulary.classes, *ACTIONS, *CONDITIONS, *facts, *vocabulary.properties, *knowledge.individuals}
-        raise UnknownNameError.of("class, property, individual, action, condition, fluent or event", name, known)
+        known = {*vocabulary.classes, *ACTIONS, *CONDITIONS, *facts, *channels}
+        known |= {*vocabulary.properties, *knowledge.individuals}
+        what = "class, property, individual, action, condition, fluent, event or channel"
+        raise UnknownNameError.of(what, name, known)
     return "\n\n".join(found)
 
 
@@ -124,6 +128,10 @@ def _events() -> Rows:
     return ((_usage(fact), _first_line(fact.doc)) for fact in _facts().values() if fact.kind == "event")
 
 
+def _channels() -> Rows:
+    return ((each.name, each.role or "all", _logged(each), each.doc) for _, each in sorted(_known_channels().items()))
+
+
 def _examples() -> Rows:
     for file in sorted(examples_folder().glob("*.toml")):
         first = file.read_text(encoding="utf-8").splitlines()[:1]
@@ -136,6 +144,7 @@ SECTIONS: Mapping[str, Callable[[], Rows]] = {
     "conditions": _conditions,
     "fluents": _fluents,
     "events": _events,
+    "channels": _channels,
     "examples": _examples,
 }
 
@@ -151,6 +160,25 @@ def _facts() -> Mapping[str, FactType]:
 
     import_module("prolepsis.programs")  # which declares the events of actions
     return fact_types()
+
+
+def _known_channels() -> Mapping[str, Channel]:
+    from prolepsis.engine.channels import known_channels
+    from prolepsis.matter.kinds import known_kinds
+
+    return known_channels(known_kinds())
+
+
+def _logged(channel: Channel) -> str:
+    """Return when a channel is logged of what has it."""
+    if channel.needed:
+        return "always"
+    return "by default" if channel.default else "if chosen"
+
+
+def _channel(channel: Channel) -> str:
+    role = channel.role or "thing"
+    return f"{channel.name}: channel of each {role}, logged {_logged(channel)}\n  {channel.doc}"
 
 
 def _usage(fact: FactType) -> str:
