@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,7 +15,7 @@ from prolepsis.engine.placing import resting_height
 from prolepsis.engine.simulation import simulate
 from prolepsis.engine.world import compile_world
 from prolepsis.log.files import read_log, write_log
-from prolepsis.log.happenings import Happening
+from prolepsis.log.happenings import Happening, HappeningType
 from prolepsis.log.log import Log
 from prolepsis.log.things import FREE, Thing, jointed, own_solids
 from prolepsis.matter.kinds import known_kinds
@@ -24,7 +24,7 @@ from prolepsis.scene.compose import compose
 from prolepsis.scene.kind import Channel, Controller, Kind
 from prolepsis.scene.parts import Panel, Shard
 from prolepsis.scene.running import TICK, Running
-from prolepsis.terms.errors import KnowledgeError, UnknownNameError
+from prolepsis.terms.errors import InputError, KnowledgeError, UnknownNameError
 from prolepsis.terms.terms import parse_term
 
 FLOOR = ":floor a :Floor . "
@@ -91,6 +91,7 @@ class Ageing(Kind):
     """A kind whose particles age, and which tells when they are a twentieth of a second old."""
 
     order = 90
+    happenings = (HappeningType(name="birthday", things=("liquid",), numbers=("age",)),)
 
     def start(self, state: Running) -> Sequence[Controller]:
         return [Aging()]
@@ -158,6 +159,66 @@ class Misspelt(Kind):
 def test_a_kind_of_an_unknown_class_is_refused(tmp_path: Path) -> None:
     with pytest.raises(UnknownNameError, match="Misspelt: no class named 'Absorbant'; did you mean 'Absorbent'"):
         compose(load(tmp_path, FLOOR), (*known_kinds(), Misspelt()), resting_height, 100)
+
+
+class Telling(Controller):
+    """A controller that tells something in the first tick."""
+
+    def __init__(self, tell: Callable[[Running], None]) -> None:
+        self._tell = tell
+
+    def end_tick(self, state: Running) -> None:
+        self._tell(state)
+
+
+class Teller(Kind):
+    """A kind that declares one thing, and tells what it is told to."""
+
+    channels = (Channel(name="weariness", doc="how weary it is [1]", role="Breakable"),)
+    happenings = (HappeningType(name="yawn", things=("thing",), numbers=("width",)),)
+
+    def __init__(self, tell: Callable[[Running], None]) -> None:
+        self.tell = tell
+
+    def start(self, state: Running) -> Sequence[Controller]:
+        return [Telling(self.tell)]
+
+
+def sets(name: str, attribute: str) -> Callable[[Running], None]:
+    """Return what sets an attribute of a thing."""
+    return lambda state: state.set_attribute(name, attribute, 1.0)
+
+
+def yawn(type: str = "yawn", number: str = "width", **things: int) -> Callable[[Running], None]:
+    """Return what reports a yawn."""
+    return lambda state: state.report(Happening(type=type, things=things, numbers={number: 1.0}))
+
+
+@pytest.mark.parametrize(
+    ("tell", "message"),
+    [
+        (sets("block1", "wearyness"), "no channel that is set named 'wearyness'; did you mean 'weariness'.; known: br"),
+        (sets("block1", "speed"), "no channel that is set named 'speed'"),
+        (sets("block2", "wet"), "no object named 'block2'; did you mean 'block1'"),
+        (sets("block1", "weariness"), "block1: weariness is of a Breakable, which"),
+        (yawn("yown", thing=0), "no type of happenings named 'yown'; did you mean 'yawn'.; known: detachment, yawn"),
+        (yawn(think=0), "yawn: reported with think; declared: thing"),
+        (yawn(number="breadth", thing=0), "yawn: reported with breadth; declared: width"),
+        (yawn(thing=7), "yawn: thing is 7, which is no index of the 2 things"),
+    ],
+)
+def test_what_no_kind_declares_is_neither_set_nor_reported(tell: Callable[[Running], None], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        simulated(FLOOR + ":block1 a :Block ; :on :floor .", "wait(0.002)", Teller(tell))
+
+
+def test_what_a_kind_declares_is_set_and_reported() -> None:
+    def tell(state: Running) -> None:
+        state.set_attribute("egg1", "weariness", 0.5)
+        state.report(Happening(type="yawn", things={"thing": 0}, numbers={"width": 1.0}))
+
+    log = simulated(FLOOR + ":egg1 a :Egg ; :on :floor .", "wait(0.002)", Teller(tell))
+    assert len(log.happenings["yawn"]) == log.tick_count
 
 
 def test_a_number_without_a_unit_is_no_text(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from prolepsis.engine.pushing import Pushes
+from prolepsis.engine.reporting import check_attribute, check_happening
 from prolepsis.engine.world import DEBRIS_IMPEDANCE_RATIO, World, add_geom
 from prolepsis.geometry.rotations import compose_pose, inverse, relative_pose, rotated
 from prolepsis.geometry.shape import FloatArray, IntArray, Quaternion, Triple, quaternion, triple
@@ -109,11 +110,8 @@ class State:
         self.body_thing = np.array([index.get(name, -1) for name in _body_names(self.model)])
 
     def report(self, happening: Happening) -> None:
-        """Tell the log that something has happened in this tick."""
-        count = len(self.scene.things)
-        for argument, index in happening.things.items():
-            if not 0 <= index < count:
-                raise ValueError(f"{happening.type}: {argument} is {index}, which is no index of the {count} things")
+        """Tell the log that something has happened in this tick, which a kind has declared."""
+        check_happening(self.scene, happening)
         self.happenings.append((self.tick, happening))
 
     def attribute(self, name: str, attribute: str) -> float:
@@ -124,7 +122,9 @@ class State:
         return float(self.scene.thing(name).quantities.get(attribute, 0.0))
 
     def set_attribute(self, name: str, attribute: str, value: float) -> None:
-        """Change an attribute of a thing."""
+        """Change an attribute of a thing, which a kind has declared."""
+        if (name, attribute) not in self.attributes:
+            check_attribute(self.scene, name, attribute)
         self.attributes[name, attribute] = value
 
     def set_friction(self, index: int, friction: float) -> None:

@@ -9,10 +9,21 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, IntArray
 
-DETACHMENT = "detachment"
-"""Type of what happens when a bond of something breakable gives way."""
-DETACHMENT_COLUMNS = ("thing", "a", "b"), ("force",)
-"""Its arguments - the whole and two of its pieces - and its number, a force [N]."""
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class HappeningType:
+    """What a kind may report."""
+
+    name: str
+    """``detachment``"""
+    things: tuple[str, ...]
+    """Names of its arguments, each of which is a thing."""
+    numbers: tuple[str, ...] = ()
+    """Names of what is measured, in SI units."""
+
+
+DETACHMENT = HappeningType(name="detachment", things=("thing", "a", "b"), numbers=("force",))
+"""A bond of something breakable gives way: of the whole, between two of its pieces, under a force [N]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -20,7 +31,7 @@ class Happening:
     """One of them, as it is reported."""
 
     type: str
-    """``detachment``; all of one type have the same arguments and numbers."""
+    """Name of its type, ``detachment``."""
     things: Mapping[str, int]
     """Index of the thing that each argument is, by the argument's name."""
     numbers: Mapping[str, float] = field(default_factory=dict[str, float])
@@ -29,7 +40,7 @@ class Happening:
 
 def detachment(thing: int, a: int, b: int, force: float) -> Happening:
     """Return that a bond between two pieces, a and b, of a whole has detached under a force [N]."""
-    return Happening(type=DETACHMENT, things={"thing": thing, "a": a, "b": b}, numbers={"force": force})
+    return Happening(type=DETACHMENT.name, things={"thing": thing, "a": a, "b": b}, numbers={"force": force})
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

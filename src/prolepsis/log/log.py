@@ -90,7 +90,7 @@ class Detachments:
     def happenings(self) -> dict[str, Happenings]:
         """Return them as happenings."""
         things = {"thing": self.thing, "a": self.a, "b": self.b}
-        return {DETACHMENT: Happenings(tick=self.tick, things=things, numbers={"force": self.force})}
+        return {DETACHMENT.name: Happenings(tick=self.tick, things=things, numbers={"force": self.force})}
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -171,7 +171,7 @@ class Log:
     @property
     def detachments(self) -> Detachments:
         """Bonds of breakable things that gave way."""
-        return Detachments.of(self.happenings.get(DETACHMENT))
+        return Detachments.of(self.happenings.get(DETACHMENT.name))
 
     @property
     def tick_count(self) -> int:

@@ -1,7 +1,8 @@
 """What a kind is - of matter, of hands, of robots: what it adds to a scene, to the world, and to each moment of a run.
 
 All that is general knows kinds by the five steps here, and takes them in this order: compose (``refuse``, ``flowing``,
-``parts``, ``fill``), edit (``attach``, ``edit``), start, act (the methods of a ``Controller``), report (``channels``).
+``parts``, ``fill``), edit (``attach``, ``edit``), start, act (the methods of a ``Controller``), report (``channels``,
+``happenings``).
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from typing import Any, Protocol
 
 from prolepsis.geometry.shape import Triple
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
+from prolepsis.log.happenings import HappeningType
 from prolepsis.log.things import Thing
 from prolepsis.scene.running import MAX_STEP, Running
 from prolepsis.scene.scene import Pool, Scene
@@ -150,7 +152,9 @@ class Kind:
     roles: frozenset[str] = frozenset()
     """Classes that it or recognition goes by, beside those of ``compose``."""
     channels: tuple[Channel, ...] = ()
-    """What can be logged of its things."""
+    """What can be logged of its things; its controllers set those that nothing reads."""
+    happenings: tuple[HappeningType, ...] = ()
+    """What its controllers may report."""
 
     def refuse(self, kb: KnowledgeBase) -> None:
         """Refuse a situation that says of its individuals what cannot be so.

@@ -77,7 +77,7 @@ class Running(Protocol):
         ...
 
     def report(self, happening: Happening) -> None:
-        """Tell the log that something has happened in this tick."""
+        """Tell the log that something has happened in this tick, which a kind of the scene has declared."""
         ...
 
     def attribute(self, name: str, attribute: str) -> float:
@@ -85,7 +85,7 @@ class Running(Protocol):
         ...
 
     def set_attribute(self, name: str, attribute: str, value: float) -> None:
-        """Change an attribute of a thing."""
+        """Change an attribute of a thing, which is a channel that a kind of the scene has declared."""
         ...
 
     def set_friction(self, index: int, friction: float) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from itertools import product
 
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
+from prolepsis.log.happenings import DETACHMENT
 from prolepsis.log.things import Thing, friction_of, own_solids
 from prolepsis.matter.shells.parts import Membraned, Shell, egg_pools, shelled
 from prolepsis.scene.kind import Building, Channel, Controller, Draft, Individuals, Kind, Made
@@ -38,6 +39,7 @@ class Shells(Kind):
         ),
         Channel(name="broken", doc="1 once one of its bonds has detached, else 0", begins="BrokenThing"),
     )
+    happenings = (DETACHMENT,)
 
     def refuse(self, kb: KnowledgeBase) -> None:
         """Refuse what is told of it that cannot be so."""
