@@ -9,9 +9,11 @@ import pytest
 from tests.fluents.worlds import FLOOR, STEP, box, roll, times, world
 
 from prolepsis.fluents import recognize
+from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import GROUNDINGS, fluent
 from prolepsis.log.fact_types import EVENTS, FLUENTS
 from prolepsis.log.log import Log
+from prolepsis.log.timeline import Fact, Kind
 from prolepsis.terms.errors import InputError
 
 PAGE = Path(__file__).parents[2] / "docs" / "grounding.md"
@@ -27,6 +29,31 @@ def test_the_example_of_a_new_fluent_runs() -> None:
         timeline = recognize(Log.from_mujoco(model, states, STEP))
         assert times(timeline, "upsideDown(a)") == [(0.0, 0.3)]
         assert not times(timeline, "upsideDown(b)")
+    finally:
+        GROUNDINGS[:] = groundings
+        FLUENTS.pop("upsideDown", None)
+
+
+@pytest.mark.parametrize(
+    ("kind", "type", "args", "message"),
+    [
+        ("fluent", "upsideDwon", ("a",), "not declared: no fluent named 'upsideDwon'; did you mean 'upsideDown'"),
+        ("event", "upsideDown", ("a",), "not declared: no event named 'upsideDown'; known: absorbing, "),
+        ("fluent", "upsideDown", ("a", "b"), r"finds upsideDown with 2 arguments; declared: upsideDown\(o\)"),
+    ],
+)
+def test_what_a_grounding_finds_must_be_declared(kind: Kind, type: str, args: tuple[str, ...], message: str) -> None:
+    groundings = list(GROUNDINGS)
+    try:
+
+        @fluent("upsideDown", "o")
+        def upside_down(observation: Observation) -> list[Fact]:
+            """The thing lies on its head."""
+            return [observation.fact(kind, type, args, (0, 1))]
+
+        model, states = roll(world(FLOOR + box("a", "0 0 .05")), 0.01)
+        with pytest.raises(InputError, match=message):
+            recognize(Log.from_mujoco(model, states, STEP))
     finally:
         GROUNDINGS[:] = groundings
         FLUENTS.pop("upsideDown", None)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from prolepsis.fluents.agents.actions import action_facts
 from prolepsis.fluents.observation import observe
-from prolepsis.fluents.registry import GROUNDINGS
+from prolepsis.fluents.registry import GROUNDINGS, check_declared
 from prolepsis.log.domain import Domain
 from prolepsis.log.log import Log
 from prolepsis.log.timeline import Fact, Timeline, make_timeline
@@ -22,12 +22,15 @@ def recognize(log: Log, *, domain: Domain | None = None) -> Timeline:
 
     Raises:
         LogError: If it is given something else than a log.
+        InputError: If a grounding finds a fact that is not declared.
     """
     if not isinstance(log, Log):  # pyright: ignore[reportUnnecessaryIsInstance]
         given = brief(type(log).__name__)
         raise LogError(f"a log is recognized, as `read_log` or `Log.from_mujoco` gives it, not {given}")
     observation = observe(log)
     facts: list[Fact] = [fact for grounding in GROUNDINGS for fact in grounding(observation)]
+    for kind, name, count in dict.fromkeys((fact.kind, fact.type, len(fact.args)) for fact in facts):
+        check_declared(kind, name, count)
     facts += action_facts(observation)
     return make_timeline(facts, dt=log.dt, duration=log.duration, domain=domain or domain_of(log))
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from prolepsis.fluents.observation import Observation
 from prolepsis.log.fact_types import EVENTS, FLUENTS, FactType
 from prolepsis.log.timeline import Fact, Kind
-from prolepsis.terms.errors import InputError
+from prolepsis.terms.errors import InputError, UnknownNameError
 
 Grounding = Callable[[Observation], Iterable[Fact]]
 
@@ -29,6 +29,21 @@ def event(name: str, *arguments: str, action: str | None = None) -> Callable[[Gr
         action: Name of an action whose event it is, which then is on the timeline only as it is found.
     """
     return _registration(EVENTS, "event", name, arguments, action)
+
+
+def check_declared(kind: str, name: str, count: int) -> None:
+    """Check that a fact which a grounding found, with ``count`` arguments, is declared.
+
+    Raises:
+        UnknownNameError: If nothing of that kind has its name.
+        InputError: If it has another number of arguments.
+    """
+    known = FLUENTS if kind == "fluent" else EVENTS
+    if name not in known:
+        raise UnknownNameError.of(kind, name, known, "a grounding finds what is not declared")
+    declared = known[name].arguments
+    if len(declared) != count:
+        raise InputError(f"a grounding finds {name} with {count} arguments; declared: {name}({', '.join(declared)})")
 
 
 def _registration(
