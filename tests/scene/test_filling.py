@@ -16,7 +16,7 @@ from prolepsis.geometry.shape import FloatArray
 from prolepsis.geometry.signed_distance import field_of
 from prolepsis.knowledge import KnowledgeBase
 from prolepsis.log.things import Thing
-from prolepsis.matter.liquids.filling import basin_of
+from prolepsis.matter.liquids.filling import FULL, basin_of
 from prolepsis.scene.scene import Pool, Scene
 from prolepsis.scene.shapes import SHAPES
 from prolepsis.terms.errors import KnowledgeError
@@ -170,3 +170,31 @@ def test_a_soaked_sponge_holds_its_liquid_evenly() -> None:
 def test_filling_is_the_same_every_time() -> None:
     text = f"{TABLE} :cup1 a :Cup ; :on :table1 ; :contains :liq1 . :liq1 a :Honey ; :fill 0.5 ."
     assert (pool_of(scene(text)).position == pool_of(scene(text)).position).all()
+
+
+@pytest.mark.parametrize("vessel", ["PaperBowl", "ClayBowl", "Bowl", "Cup"])
+@pytest.mark.parametrize("more", ["", "; :radius 0.11", "; :height 0.03"])
+def test_a_vessel_may_be_full_to_the_brim(vessel: str, more: str) -> None:
+    text = f":floor a :Floor . :v1 a :{vessel} ; :on :floor {more} ; :contains :liq1 . :liq1 a :Water ; :fill 1.0 ."
+    made = scene(text, particles=300)
+    liquid, container = made.thing("liq1"), made.thing("v1")
+    basin = basin_of("v1", tuple(thing for thing in made.things if thing.name == "v1"))[1]
+    assert liquid.quantities["volume"] <= FULL * basin.capacity
+    assert liquid.quantities["volume"] == pytest.approx(container.quantities["capacity"], rel=0.02)
+    assert made.number("liq1", "volume") == liquid.quantities["volume"]
+    assert made.number("liq1", "mass") == liquid.mass
+
+
+def test_several_liquids_may_fill_a_vessel_together() -> None:
+    text = ":floor a :Floor . :v1 a :PaperBowl ; :on :floor ; :contains :a , :b . :a a :Water ; :fill 0.5 . :b a :Honey"
+    made = scene(f"{text} ; :fill 0.5 .", particles=300)
+    assert made.thing("a").quantities["volume"] == made.thing("b").quantities["volume"]
+    with pytest.raises(KnowledgeError, match="are to be in v1, which holds"):
+        scene(f"{text} ; :fill 0.52 .", particles=300)
+
+
+def test_a_tilted_vessel_is_filled_by_its_share_of_the_upright_one() -> None:
+    bowl = ":floor a :Floor . :v1 a :PaperBowl ; :z 0.1 ; :pitch 20.0 ; :contains :liq1 . :liq1 a :Water ; :fill"
+    assert scene(f"{bowl} 0.3 .", particles=300).thing("liq1").quantities["volume"] > 2e-4
+    with pytest.raises(KnowledgeError, match="are to be in v1, which holds"):
+        scene(f"{bowl} 0.95 .", particles=300)

@@ -11,6 +11,7 @@ from prolepsis.geometry.rotations import turned
 from prolepsis.geometry.shape import IDENTITY, Shape
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.knowledge.situation import MOST_INDIVIDUALS
+from prolepsis.log.domain import Domain
 from prolepsis.log.things import FIXED, FREE, Thing
 from prolepsis.scene.coherence import refuse_nonsense
 from prolepsis.scene.colours import colour_of
@@ -92,11 +93,23 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
         things, pools = {**things, **new}, pools + more
     return Scene(
         things=tuple(thing for name in names for thing in things[name]),
-        domain=kb.domain(),
+        domain=_with_volumes(kb.domain(), [thing for name in flowing for thing in things[name]]),
         pools=pools,
         parts_known=tuple(part for name in names if name in made for part in made[name].parts),
         kinds=tuple(kinds),
     )
+
+
+def _with_volumes(domain: Domain, flowing: Sequence[Thing]) -> Domain:
+    """Return what is known, with the volume and mass of what flows as it has been filled in, where that is another."""
+    made = {thing.name: thing.quantities for thing in flowing}
+    known = {name: value for name, prop, value in domain.values if prop == "volume"}
+    other = {name for name, value in known.items() if name in made and made[name].get("volume") != value}
+    values = (
+        (name, prop, made[name].get(prop, value) if name in other and prop in ("volume", "mass") else value)
+        for name, prop, value in domain.values
+    )
+    return replace(domain, values=tuple(values)) if other else domain
 
 
 def _owner(kb: KnowledgeBase, name: str, kinds: Sequence[Kind]) -> Kind:

@@ -10,6 +10,7 @@ import numpy as np
 
 from prolepsis.geometry.hollows import Basin, space_of
 from prolepsis.geometry.packing import lattice, lowest, relaxed
+from prolepsis.geometry.rotations import rotated
 from prolepsis.geometry.shape import FloatArray, Geom, Shape
 from prolepsis.geometry.signed_distance import shifted
 from prolepsis.log.things import Thing
@@ -56,6 +57,10 @@ def fill(
     for name in sorted({place.host for place in places.values() if place.relation == "contains"}):
         basins[name] = basin_of(name, solids[name])
     volumes = {each.name: _volume(each, places[each.name], basins) for each in liquids}
+    for host, (container, basin) in basins.items():
+        inside = [each for each in liquids if places[each.name] == Place(relation="contains", host=host)]
+        if sum(volumes[each.name] for each in inside) > FULL * basin.capacity:
+            volumes |= _fills(container, basin, solids[host][0], inside, volumes)
     spacing = (max(volumes.values()) / particles) ** (1 / 3)
     counts = {name: round(volume / spacing**3) for name, volume in volumes.items()}
     _refuse_counts(counts, particles)
@@ -117,13 +122,35 @@ def basin_of(name: str, bodies: tuple[Thing, ...]) -> tuple[Placed, Basin]:
     if bodies and bodies[0].shape.geoms:
         whole = replace(bodies[0], shape=replace(bodies[0].shape, holes=()))
         container = placed(whole)
-        solids = shifted(container.field.solids, np.array([*whole.position, *whole.orientation]))
-        basin = space_of(solids, container.low, container.high).basin(UP)
+        basin = _basin(container, whole, UP)
         if basin is not None:
             return container, basin
     raise KnowledgeError(
         f"{name} contains a liquid at the start, but as it stands it has no cavity that would hold any"
     )
+
+
+def _basin(container: Placed, thing: Thing, up: FloatArray) -> Basin | None:
+    solids = shifted(container.field.solids, np.array([*thing.position, *thing.orientation]))
+    return space_of(solids, container.low, container.high).basin(up)
+
+
+def _fills(
+    container: Placed, basin: Basin, vessel: Thing, liquids: Sequence[Thing], volumes: Mapping[str, float]
+) -> dict[str, float]:
+    """Return the volumes [m^3] of liquids that follow from their fill, as shares of what the vessel holds upright.
+
+    Its ``capacity`` is that of an ideal outline, which may be more than fits between its walls.
+    """
+    up = rotated(vessel.orientation, (0.0, 0.0, 1.0))
+    upright = basin if np.allclose(up, UP) else _basin(container, vessel, up)
+    capacity = vessel.quantities.get("capacity", 0.0)
+    if upright is None or upright.capacity >= capacity:
+        return {}
+    filling = {each.name: each.quantities.get("fill", 0.0) for each in liquids}
+    return {
+        name: share * upright.capacity for name, share in filling.items() if volumes[name] == share * capacity > 0.0
+    }
 
 
 def _volume(liquid: Thing, place: Place, basins: Mapping[str, tuple[Placed, Basin]]) -> float:
