@@ -67,6 +67,11 @@ TABLE = [
         "forward = [0, 1, 0]\ntool = ",
         "forward must point from the palm to the fingertips, not from pad to pad: [0.0, 1.0, 0.0]",
     ),
+    (
+        "tool = ",
+        "forward = [-1, 0, 0]\ntool = ",
+        "forward must point from the palm to the fingertips, not back: [-1.0, 0.0, 0.0], while the tool is at [0.08, 0",
+    ),
     ("tool = ", 'pads = ["palm", "wheel"]\ntool = ', "gripper1: pads: no body or geom named 'wheel'"),
     ("tool = ", 'joints = ["pan", "lift", "bend"]\ntool = ', "gripper1.joints: no joint named 'bend'; known: elbow"),
     (
@@ -106,6 +111,11 @@ def test_a_bad_robot_table(tmp_path: Path, old: str, new: str, message: str) -> 
 
 JAW = [
     ('jaw = "jaw"', 'jaw = "roll"', "own_jaw.xml: gripper gripper1: the jaw roll moves on wrist, not on the palm palm"),
+    (
+        "tool = ",
+        "forward = [-1, 0, 0]\ntool = ",
+        "gripper1: forward must point from the palm to the fingertips, not back",
+    ),
     ('jaw = "jaw"', "jaw = 3", "own_jaw.toml: robot.grippers.gripper1.jaw: input should be a valid string"),
     (
         '"fixed_jaw", "moving_jaw"',
@@ -128,6 +138,22 @@ def test_a_bad_jaw(tmp_path: Path, old: str, new: str, message: str) -> None:
     (tmp_path / "own_jaw.toml").write_text(text.replace(old, new), encoding="utf-8")
     with pytest.raises(InputError, match=re.escape(message)):
         project(tmp_path / "own_jaw.toml")
+
+
+def test_a_jaw_that_turns_aside(tmp_path: Path) -> None:
+    shutil.copy(ROOT / "examples" / "own_jaw.ttl", tmp_path)
+    shutil.copy(ROOT / "examples" / "own_jaw.toml", tmp_path)
+    model = (ROOT / "examples" / "own_jaw.xml").read_text(encoding="utf-8")
+    for axis in ("1 0.2 0", "1 0 0", "0.8 0 0.6"):
+        turned = model.replace(
+            '<joint name="jaw" axis="0 0 1" range="-0.17 1.745"', f'<joint name="jaw" axis="{axis}" range="0.2 1.2"'
+        )
+        assert turned != model
+        (tmp_path / "own_jaw.xml").write_text(turned, encoding="utf-8")
+        with pytest.raises(
+            InputError, match="the jaw jaw turns aside: its axis .* must be across both forward and the"
+        ):
+            project(tmp_path / "own_jaw.toml")
 
 
 def test_a_jaw_that_slides(tmp_path: Path) -> None:

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from pydantic.dataclasses import dataclass
 
-from prolepsis.geometry.shape import FloatArray, Triple
+from prolepsis.geometry.rotations import rotated
+from prolepsis.geometry.shape import FloatArray, Triple, quaternion, triple
 from prolepsis.robots.effectors.gap import Gap
 from prolepsis.robots.effectors.gripper_control import Drive, GripperControl
 from prolepsis.robots.effectors.kind import EffectorKind, effector
@@ -35,6 +36,8 @@ SPARE = 2.0e-3
 LEAST_RISE = 0.5
 """Where the gap grows with the angle by less than this share of the most [1], at some 60 degrees, a jaw turns away
 rather than open."""
+ASIDE = 0.7
+"""Cosine of the angle between the hinge and what is across forward and pads, below which the jaw turns aside."""
 FELT, MOST_FELT = 0.02, 0.4
 """Share by which the lever follows at each tick where the pad is touched [1], and how far from that at the tool [1]."""
 PROBE, POINT = "prolepsis_probe", 1.0e-6
@@ -92,7 +95,15 @@ class Jaw(EffectorKind[JawTable]):
         """Return the jaw; the y axis of its frame goes from the fixed pad to where it holds."""
         pads = table.surfaces(model, given.palm)
         across = np.array(given.tool) - _foot(spec, given.palm, pads[0], given.tool, where)
-        return pinching(self.name, model, joints, pads, across, given, where)
+        made = pinching(self.name, model, joints, pads, across, given, where)
+        hinge = model.joint(table.jaw)
+        axis = rotated(quaternion(model.body_quat[model.jnt_bodyid[hinge.id]]), triple(hinge.axis))
+        if abs(float(axis @ rotated(made.tool_orientation, (0.0, 0.0, 1.0)))) < ASIDE:
+            raise ScenarioError(
+                f"{where}: the jaw {table.jaw} turns aside: its axis {[round(float(each), 3) for each in axis]} "
+                f"must be across both forward and the way from pad to pad"
+            )
+        return made
 
     def gap(self, spec: Any, model: Any, effector: Effector, where: str) -> Gap:
         """Return how far the moving pad is from the point on the fixed one where things are held."""

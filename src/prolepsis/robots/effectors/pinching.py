@@ -23,6 +23,8 @@ FARTHEST = 1.0
 """No gripper opens wider [m]."""
 ACROSS = 0.9
 """Cosine of the angle between the way from palm to fingertips and from pad to pad, at which they are taken for one."""
+BACKWARD = -0.5
+"""Cosine of the angle between forward and the way from the palm's middle to the tool, below which it is reversed."""
 STIFFNESS, DAMPING = 4.0e3, 80.0
 """Servo of the opening [N/m, N s/m]."""
 
@@ -168,8 +170,14 @@ def pinching(
     """Return the effector of a kind whose pads, bodies or geoms, pinch along ``across``, shape (3,), seen by its palm.
 
     Raises:
-        ScenarioError: If that is the way to the fingertips.
+        ScenarioError: If that is the way to the fingertips, or they are on the other side of the palm.
     """
+    ahead = np.array(given.tool) - model.body(given.palm).ipos
+    if float(ahead @ np.array(given.forward)) < BACKWARD * float(np.linalg.norm(ahead) * np.linalg.norm(given.forward)):
+        raise ScenarioError(
+            f"{where}: forward must point from the palm to the fingertips, not back: {list(given.forward)}, while the "
+            f"tool is at {list(given.tool)}"
+        )
     return Effector(
         kind=kind,
         palm=given.palm,
