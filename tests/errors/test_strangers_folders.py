@@ -236,6 +236,20 @@ def a_particle_that_is_no_number(folder: Path) -> None:
     write_table(folder / "particles.parquet", {"particle": columns["particle"], "holder": columns["holder"], **places})
 
 
+def a_particle_less(folder: Path) -> None:
+    columns = read_table(folder / "particles.parquet")
+    write_table(folder / "particles.parquet", {name: column[:-1] for name, column in columns.items()})
+
+
+def poses_in_another_order(folder: Path) -> None:
+    columns = read_table(folder / "poses.parquet")
+    write_table(folder / "poses.parquet", {name: column[::-1] for name, column in columns.items()})
+
+
+def another_table(folder: Path) -> None:
+    write_table(folder / "happenings_yawn.parquet", {"tick": np.zeros(1, dtype=np.int64)})
+
+
 CORNER = {
     "type": "mesh",
     "size": [0.0, 0.0, 0.0],
@@ -307,6 +321,11 @@ LOGS: dict[str, Change] = {
     "a quaternion of nothing": in_table("poses.parquet", "qw", 5, 0.0),
     "a carrier that is none": in_table("poses.parquet", "carrier", 5, 99),
     "a pose less": a_pose_less,
+    "a particle less": a_particle_less,
+    "poses in another order": poses_in_another_order,
+    "a table that nobody tells of": another_table,
+    "happenings that nobody tells of": in_json("log.json", "happenings", value={}),
+    "particles that nobody tells of": in_json("log.json", "particles", value=None),
     "poses of whole numbers": poses_of_whole_numbers,
     "no column of heights": with_columns("poses.parquet", z=None),
     "times that stand still": in_table("ticks.parquet", "time", slice(None), 0.0),
@@ -355,6 +374,25 @@ def test_render_refuses_a_sealed_log_with(
     line = refusal(["render", str(folder), "--strip", str(tmp_path / "a.png")], capfd)
     assert "log" in line or "parquet" in line
     assert not (tmp_path / "a.png").exists()
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ("a pose less", "poses: 8799 rows; needed: 8800, of 11 things at 800 times"),
+        ("a particle less", "particles: "),
+        ("poses in another order", "poses: the column thing does not tell"),
+        ("a table that nobody tells of", "there is happenings_yawn.parquet, of which log.json does not tell"),
+        ("happenings that nobody tells of", "there is happenings_detachment.parquet, of which log.json does not tell"),
+    ],
+)
+def test_what_is_wrong_with_the_tables_is_said_in_their_own_terms(folder: Path, change: str, message: str) -> None:
+    LOGS[change](folder)
+    seal(folder)
+    with pytest.raises(LogError) as raised:
+        read_log(folder)
+    assert message in str(raised.value)
+    assert "reshape" not in str(raised.value)
 
 
 @pytest.mark.laws

@@ -117,6 +117,18 @@ def check_name(what: str, name: str) -> None:
         raise ValueError(f"{brief(repr(name))} is no {what}; allowed: {allowed}")
 
 
+def check_rows(what: str, key: str, column: Column, count: int, times: int) -> None:
+    """Check that a long table has a row for each of ``times`` times of the first, then of the second ...
+
+    Raises:
+        ValueError: If not; ``key`` is the name of the column that numbers what the rows are of.
+    """
+    if len(column) != count * times:
+        raise ValueError(f"{what}: {len(column)} rows; needed: {count * times}, of {count} {key}s at {times} times")
+    if (column != np.arange(count).repeat(times)).any():
+        raise ValueError(f"{what}: the column {key} does not tell {times} rows of the first, then of the second ...")
+
+
 def _check_happenings(type: str, happenings: Happenings, ticks: int, count: int) -> None:
     check_columns(f"{type}s", (*happenings.things, *happenings.numbers))
     _check_ascending(f"{type}s", happenings.tick, ticks)

@@ -152,6 +152,9 @@ def read_log_files(path: Path) -> Log:
         reported = [_HAPPENINGS.format(type) for type in head.happenings]
         wet = (_FRAMES, _KINDS, _PLACES, *((_OWN,) if head.particles.columns else ())) if head.particles else ()
         names = (_TICKS, _POSES, _CONTACTS, _JOINTS, *reported, *wet)
+        untold = sorted({each.name for each in path.glob("*.parquet")} - {*names})
+        if untold:
+            raise ValueError(f"there is {brief(untold[0])}, of which {HEAD} does not tell")
         tables.check_unpacked_sizes(path / name for name in names)
         ticks = tables.read_table(path / _TICKS)
         time = ticks.pop("time")

@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from prolepsis.geometry.shape import IntArray
+from prolepsis.log.checks import check_rows
 from prolepsis.log.log import PARKED, Particles
 
 STEP = 1e-5
@@ -86,6 +87,10 @@ def particles_from(
     """
     tick, stuff = frames["tick"], kinds["stuff"]
     shape = len(stuff), len(tick)
+    check_rows("particles", "particle", places["particle"], *shape)
+    for name, column in own.items():
+        if len(column) != len(places["particle"]):
+            raise ValueError(f"particles: {name} has {len(column)} rows, their places {len(places['particle'])}")
     if _WHOLE_AXES[0] in places:
         whole = np.stack([places[axis] for axis in _WHOLE_AXES], axis=-1)
         by_particle = (whole * STEP).astype(np.float32)

@@ -14,6 +14,7 @@ import pyarrow.parquet as parquet  # pyright: ignore[reportMissingTypeStubs]
 
 from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.log import particle_tables
+from prolepsis.log.checks import check_rows
 from prolepsis.log.happenings import Happenings
 from prolepsis.log.log import Contacts, Joints
 from prolepsis.terms.errors import InputError, LogError, brief
@@ -205,7 +206,12 @@ def pose_columns(poses: FloatArray, carrier: IntArray) -> Columns:
 
 
 def poses_from(columns: Columns, ticks: int, things: int) -> tuple[FloatArray, IntArray]:
-    """Return poses (T, n, 7) and carriers (T, n) from long columns."""
+    """Return poses (T, n, 7) and carriers (T, n) from long columns.
+
+    Raises:
+        ValueError: If they are not those of so many ticks and things.
+    """
+    check_rows("poses", "thing", columns["thing"], things, ticks)
     by_thing = np.stack([columns[name] for name in POSE_COLUMNS], axis=-1).reshape(things, ticks, 7)
     poses = np.ascontiguousarray(by_thing.transpose(1, 0, 2))
     carrier = np.ascontiguousarray(columns["carrier"].reshape(things, ticks).T)
