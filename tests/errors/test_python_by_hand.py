@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
@@ -12,6 +13,7 @@ import pytest
 import prolepsis
 from prolepsis import Fact, KnowledgeBase, Term, format_value, parse_term, project, read_log, recognize, sweep
 from prolepsis.log.timeline import Timeline, make_timeline
+from prolepsis.scenario.scenario import Scenario
 from prolepsis.terms.errors import InputError, ProlepsisError
 
 DROP = Path(__file__).parent.parent.parent / "examples" / "dropped_egg.toml"
@@ -47,6 +49,17 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     "settings": (lambda: project(DROP, settings=cast(Any, 3)), "settings are numbers or texts by name"),
     "a setting": (lambda: project(DROP, settings={"seed": cast(Any, object())}), "settings are numbers or texts"),
     "a seed that is true": (lambda: project(DROP, settings={"seed": True}), "seed = True"),
+    "a seed that floats cannot tell": (
+        lambda: project(DROP, settings={"seed": 2.0**53}),
+        "seed = 9007199254740992.0: must",
+    ),
+    "a seed that is rounded": (
+        lambda: project(DROP, settings={"seed": "9007199254740993.0"}),
+        "must be a whole number",
+    ),
+    "a fraction of a seed": (lambda: replace(Scenario.load(DROP), seed=cast(Any, 1.5)), "seed = 1.5: must be a whole"),
+    "a number of particles": (lambda: replace(Scenario.load(DROP), particles=cast(Any, "5")), "particles = 5: must be"),
+    "a draw that is a text": (lambda: replace(Scenario.load(DROP), draw=cast(Any, "false")), "draw = false: must be"),
     "values": (lambda: sweep(DROP, {"seed": "123"}), "values to sweep over are lists by name"),
     "a value": (lambda: sweep(DROP, {"seed": [cast(Any, None)]}), "settings are numbers or texts"),
     "a fact": (lambda: make_timeline([cast(Any, None)], dt=0.001, duration=1.0), "fact 1: not a fact: None"),
@@ -77,3 +90,8 @@ def test_what_is_wrong_in_a_call_is_said_where_it_is_given(what: str) -> None:
     with pytest.raises(ProlepsisError, match=words) as refused:
         call()
     assert "\n" not in str(refused.value) and len(str(refused.value)) < 300
+
+
+@pytest.mark.parametrize("seed", [2**53 + 1, 2**63 - 1, str(2**63 - 1)])
+def test_a_large_seed_is_what_it_is(seed: int | str) -> None:
+    assert Scenario.load(DROP, {"seed": seed}).seed == int(seed)

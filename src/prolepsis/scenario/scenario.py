@@ -78,6 +78,11 @@ class Scenario:
                 f"{self.path}: duration must be a finite number of seconds greater than 0 and at most {LONGEST:,.0f}, "
                 f"not {self.duration:g}"
             )
+        for name in ("seed", "particles"):
+            if type(getattr(self, name)) is not int:
+                raise ScenarioError(f"{self.path}: {name} = {brief(getattr(self, name))}: must be a whole number")
+        if type(self.draw) is not bool:
+            raise ScenarioError(f"{self.path}: draw = {brief(self.draw)}: must be true or false")
         if not 0 <= self.seed <= LARGEST_SEED:
             raise ScenarioError(f"{self.path}: seed = {brief(self.seed)}: allowed: 0 to {LARGEST_SEED}")
         if not FEWEST_PARTICLES <= self.particles <= MOST_PARTICLES:
@@ -271,9 +276,13 @@ def _setting(value: str | float, old: Parameter, where: str) -> Parameter:
 def _whole(value: str | float, where: str) -> int:
     if isinstance(value, bool):
         raise ScenarioError(f"{where}: must be a whole number")
+    if isinstance(value, int) or (isinstance(value, str) and value.strip().isdigit()):
+        try:
+            return int(value)
+        except ValueError:  # Python reads none that is longer than 4300 digits.
+            raise ScenarioError(f"{where}: must be a whole number") from None
     try:
-        # Beyond 2^53 a float is not every whole number.
-        return int(value) if isinstance(value, str) and value.strip().isdigit() else _whole_float(value)
+        return _whole_float(value)
     except ValueError:
         raise ScenarioError(f"{where}: must be a whole number") from None
 
@@ -286,8 +295,9 @@ def _truth(value: str | float, where: str) -> bool:
 
 
 def _whole_float(value: str | float) -> int:
-    number = to_float(float(value) if isinstance(value, str) else value)
-    if not number.is_integer():
+    number = float(value)
+    # Beyond this a float stands for other whole numbers, too.
+    if not (number.is_integer() and abs(number) < 2**53):
         raise ValueError(number)
     return int(number)
 
