@@ -132,6 +132,7 @@ def sweep(
     runs = [dict(zip(names, values, strict=True)) for values in itertools.product(*over.values())]
     # What is wrong with a file or a name is told once, before any process starts.
     base = read_scenario(scenario, settings or {})
+    base.refuse_twice([*(settings or {}), *over])
     scenarios = [base.with_settings(run) for run in runs]
     outcomes = Outcomes(rows=_all(workers, scenarios, runs, ask, limit, progress))
     for _ in range(refine):

@@ -6,7 +6,7 @@ A scenario file is TOML; it is checked here, at the edge, and is a frozen value 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -156,22 +156,47 @@ class Scenario:
                 f"{self.path}: settings are numbers or texts by name, as {{'Force': 5.0}}, not {brief(settings)}"
             )
         parameters, knowledge = dict(self.parameters), dict(self.knowledge)
-        keys = {"particles": _whole, "seed": _whole, "draw": _truth}
         chosen: dict[str, int] = {}
-        for name, value in settings.items():
+        self.refuse_twice(settings)
+        for given, value in settings.items():
+            name = self.meant(given)
+            where = f"{self.path}: {name} = {brief(value)}"
             if "." in name:
                 knowledge[name] = _plain(value)
-                continue
-            match = [known for known in parameters if known == name] or [
-                known for known in parameters if known.lower() == name.lower()
-            ]
-            if not match and name in keys:
-                chosen[name] = keys[name](value, f"{self.path}: {name} = {brief(value)}")
-                continue
-            if len(match) != 1:
-                raise UnknownNameError.of("parameter", name, parameters, where=str(self.path))
-            parameters[match[0]] = _setting(value, parameters[match[0]], f"{self.path}: {match[0]} = {brief(value)}")
+            elif name in parameters:
+                parameters[name] = _setting(value, parameters[name], where)
+            else:
+                chosen[name] = KEYS[name](value, where)
         return replace(self, parameters=parameters, knowledge=knowledge, **chosen)
+
+    def meant(self, name: str) -> str:
+        """Return what the name of a setting means: a knowledge value, a parameter in any case, or one of ``KEYS``.
+
+        Raises:
+            UnknownNameError: If it means nothing.
+        """
+        if "." in name or name in self.parameters:
+            return name
+        match = [known for known in self.parameters if known.lower() == name.lower()]
+        if not match and name in KEYS:
+            return name
+        if len(match) != 1:
+            raise UnknownNameError.of("parameter", name, self.parameters, where=str(self.path))
+        return match[0]
+
+    def refuse_twice(self, names: Iterable[str]) -> None:
+        """Refuse settings of which two mean the same.
+
+        Raises:
+            ScenarioError: With both.
+        """
+        seen: dict[str, str] = {}
+        for name in names:
+            meant = self.meant(name)
+            if meant in seen:
+                other = "" if seen[meant] == name else f", also as {brief(seen[meant])}"
+                raise ScenarioError(f"{self.path}: {brief(name)} is given twice{other}; allowed: once")
+            seen[meant] = name
 
     def knowledge_base(self) -> KnowledgeBase:
         """Return the knowledge base of the situation, with this scenario's values, and what its seed draws.
@@ -292,6 +317,10 @@ def _truth(value: str | float, where: str) -> bool:
     if text not in ("true", "false"):
         raise ScenarioError(f"{where}: must be true or false")
     return text == "true"
+
+
+KEYS: Mapping[str, Callable[[str | float, str], int]] = {"particles": _whole, "seed": _whole, "draw": _truth}
+"""Keys of a scenario that are settings, with how each is read."""
 
 
 def _whole_float(value: str | float) -> int:
