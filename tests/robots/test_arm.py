@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 from tests.scenes import run, scene
 
+from prolepsis.engine.state import State
 from prolepsis.engine.world import compile_world
 from prolepsis.fluents import recognize
 from prolepsis.log.log import Log
+from prolepsis.robots.arm_paths import is_of
 from prolepsis.robots.inverse import ArmKinematics, Found
 from prolepsis.robots.model_file import OTHERS, OWN
 from prolepsis.robots.pr2 import PR2
@@ -32,6 +34,18 @@ def outcomes(log: Log) -> dict[str, str]:
 @pytest.fixture(scope="module")
 def right_arm() -> ArmKinematics:
     return ArmKinematics(PR2, PR2.arms[0])
+
+
+def test_what_a_thing_is_made_of_is_of_it_however_it_is_called() -> None:
+    state = State.of(compile_world(scene(":floor a :Floor . :egg a :HardBoiledEgg ; :z 0.5 . :egg2 a :Egg ; :z 0.7 .")))
+    pieces = [thing.name for thing in state.scene.things if thing.whole == "eggshell"]
+    kernel = state.scene.index("kernel")
+    state.split("egg", [[kernel], *([state.scene.index(name)] for name in pieces)])
+    bodies = {state.model.body(body).name: body for body in range(1, state.model.nbody)}
+    assert set(bodies) == {"floor", "egg2", "kernel", *pieces}
+    assert {name for name, body in bodies.items() if is_of(state, body, {"egg"})} == {"kernel", *pieces}
+    assert {name for name, body in bodies.items() if is_of(state, body, {"eggshell"})} == {*pieces}
+    assert not is_of(state, 0, {"egg"})
 
 
 def test_a_search_finds_postures_that_exist(right_arm: ArmKinematics) -> None:

@@ -118,7 +118,7 @@ class ArmPaths:
         held: str | None = None,
     ) -> JointPath:
         """Return how the hand gets to a pose by any way on which nothing is touched, but by its fingers what is
-        ignored; with its pads ``opening`` [m] apart, or as they are, and with what it holds."""
+        ignored, with its parts; with its pads ``opening`` [m] apart, or as they are, and with what it holds."""
         assert self._state is not None
         self._scratch.qpos[:] = self._state.data.qpos
         self._hold(held)
@@ -210,9 +210,8 @@ class ArmPaths:
             if (bodies[0] in own_bodies) == (bodies[1] in own_bodies):
                 continue
             own, other = bodies if bodies[0] in own_bodies else reversed(bodies)
-            name = name_of(self._state, other)
-            if own not in self._fingers or name.split("/", 1)[0] not in ignoring:
-                return name
+            if own not in self._fingers or not is_of(self._state, other, ignoring):
+                return name_of(self._state, other)
         return ""
 
     def _mount_pose(self) -> FloatArray:
@@ -234,6 +233,15 @@ def name_of(state: Running, body: int) -> str:
         return str(state.model.body(body).name)
     thing = state.scene.things[number]
     return thing.whole if thing.kind == "Part" and thing.whole is not None else thing.name
+
+
+def is_of(state: Running, body: int, wholes: Collection[str]) -> bool:
+    """Return whether a body is one of some things, or of what they are made of: a piece of an egg is of the egg."""
+    number = int(state.body_thing[body])
+    thing = state.scene.things[number] if number >= 0 else None
+    while thing is not None and thing.name not in wholes:
+        thing = state.scene.thing(thing.whole) if thing.whole is not None else None
+    return thing is not None
 
 
 def _starts(kinematics: ArmKinematics) -> list[FloatArray]:

@@ -172,7 +172,7 @@ class ArmSense(Protocol):
         held: str | None = None,
     ) -> JointPath:
         """Return how the hand gets to a pose by any way on which nothing is touched, but by its fingers what is
-        ignored; with its pads ``opening`` [m] apart, or as they are, and with what it holds."""
+        ignored, with its parts; with its pads ``opening`` [m] apart, or as they are, and with what it holds."""
         ...
 
 

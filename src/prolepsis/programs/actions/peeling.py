@@ -55,11 +55,6 @@ class _Shelled:
     kernel: Thing
     pieces: tuple[Thing, ...]
 
-    @property
-    def names(self) -> set[str]:
-        """What an arm would call what it touches of it."""
-        return {self.object.name, self.kernel.name, *(piece.name.split("/", 1)[0] for piece in self.pieces)}
-
     def seen(self, sense: Sense) -> Thing:
         """Return the whole where its kernel is now."""
         position, orientation = sense.position(self.kernel.name), sense.orientation(self.kernel.name)
@@ -113,7 +108,7 @@ def peel(
     assert shelled is not None
     holding(hand, object, sense)
     reference = reference_of(scene, hand)
-    held, sense = yield from hold_out(hand, other, sense, shelled.seen(sense), shelled.names, BEST, reference)
+    held, sense = yield from hold_out(hand, other, sense, shelled.seen(sense), BEST, reference)
     sense = yield from stay(0.2, sense)
     before = len(shelled.covered(sense))
     tried: set[str] = set()
@@ -152,7 +147,7 @@ def _pinch(
         for found in _pinches(name, outward[name], other, there.arm.held_at, sense, shelled, held):
             offset, rotation = found.at.seen(there, reference)
             before, _ = found.at.moved(found.at.position, held.across, 0.0, APART * held.across).seen(there, reference)
-            path = there.arm.way(offset, rotation, shelled.names, found.opening)
+            path = there.arm.way(offset, rotation, {shelled.object.name}, found.opening)
             if not path.problem:
                 path = there.arm.way(before, rotation, (), found.opening)
             if not path.problem:

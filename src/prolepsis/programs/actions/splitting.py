@@ -49,7 +49,7 @@ def split(
     reference = reference_of(scene, hand)
     holding(hand, object, sense)
     seen = as_seen(object, sense)
-    held, sense = yield from hold_out(hand, other, sense, seen, {object.name}, SHORTS[-1], reference)
+    held, sense = yield from hold_out(hand, other, sense, seen, SHORTS[-1], reference)
     sense = yield from stay(0.2, sense)
     second, sense = yield from _take(other, sense, object, held, reference, force)
     return (

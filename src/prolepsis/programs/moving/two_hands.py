@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Generator, Iterator
+from collections.abc import Generator, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -112,9 +112,7 @@ def check_two_arms(scene: Scene, doing: str, hand: Thing, other: Thing, object: 
 Presenting = Generator[tuple[Command, ...], Sense, tuple[HeldOut, Sense]]
 
 
-def hold_out(
-    hand: Thing, other: Thing, sense: Sense, seen: Thing, touching: Collection[str], short: float, reference: Quaternion
-) -> Presenting:
+def hold_out(hand: Thing, other: Thing, sense: Sense, seen: Thing, short: float, reference: Quaternion) -> Presenting:
     """Hold a thing, as seen now, out across the robot's front, where both arms can be; return how it is held.
 
     Args:
@@ -122,7 +120,6 @@ def hold_out(
         other: The hand that will take it.
         sense: What is sensed now.
         seen: The thing.
-        touching: What an arm would call what it touches of it.
         short: How far from its middle the other hand's pads will be at least [m].
         reference: The first orientation of the hand.
 
@@ -134,13 +131,13 @@ def hold_out(
     first: JointPath | None = None
     for held in holds(here, there, seen, reference):
         pose = held.first.seen(here, reference)
-        found = here.arm.way(*pose, touching, held=seen.name)
+        found = here.arm.way(*pose, {seen.name}, held=seen.name)
         if not found.problem:
             for second in held.second(short, there.arm.held_at(0.0)):
-                found = there.arm.way(*second.seen(there, reference), touching, 0.0)
+                found = there.arm.way(*second.seen(there, reference), {seen.name}, 0.0)
                 # Both arms will be elsewhere than now: whether they touch is looked at then.
                 if found.problem != "unreachable":
-                    sense = yield from go(hand, sense, *pose, touching, seen.name)
+                    sense = yield from go(hand, sense, *pose, {seen.name}, seen.name)
                     return held, sense
         first = first or found
     what = f"{seen.name} between {hand.name} and {other.name}"
