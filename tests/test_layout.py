@@ -11,9 +11,15 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "prolepsis"
-GENERAL = ("engine/simulation", "engine/state", "engine/world", "engine/recording", "scene/compose", "report/stage")
+GENERAL = (
+    *(f"engine/{file.stem}" for file in sorted((SOURCE / "engine").glob("*.py"))),
+    *("scene/compose", "scene/kind", "scene/running", "report/stage", "report/droplets"),
+)
 """What knows kinds of matter, of hands and of robots only by the steps of ``scene/kind.py``."""
-KINDS = re.compile(r"eggs?|shell(s|ed)?|panels?|yolks?|fingers?|sponges?|bowls?", re.IGNORECASE)
+KINDS = re.compile(
+    r"eggs?|shell(s|ed)?|panels?|yolks?|fingers?|palms?|sponges?|bowls?|cups?|coconuts?|kernels?|membranes?|breakable",
+    re.IGNORECASE,
+)
 LONGEST = 400
 """Lines of a file that one can still explain in a sentence."""
 

@@ -17,7 +17,7 @@ from prolepsis.engine.world import compile_world
 from prolepsis.log.files import read_log, write_log
 from prolepsis.log.happenings import Happening, HappeningType
 from prolepsis.log.log import Log
-from prolepsis.log.things import FREE, Thing, jointed, own_solids
+from prolepsis.log.things import FREE, Thing, falling_apart, jointed, own_solids
 from prolepsis.matter.kinds import known_kinds
 from prolepsis.programs import read_program
 from prolepsis.scene.compose import compose
@@ -50,6 +50,7 @@ def test_parts_are_typed() -> None:
     made = scene(FLOOR + ":egg1 a :Egg ; :on :floor . :bowl1 a :PaperBowl ; :on :floor ; :x 0.3 .")
     shards, panels = made.each(Shard), made.each(Panel)
     assert {shard.whole for shard in shards} == {"egg1"}
+    assert falling_apart(made.things) == {"egg1", "eggshell1"}
     assert {panel.whole for panel in panels} == {"bowl1"}
     assert [made.thing(shard.name).emerges for shard in shards] == [True] * len(shards)
     assert [made.thing(panel.name).mount for panel in panels] == [jointed("bowl1")] * len(panels)

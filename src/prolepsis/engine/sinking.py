@@ -18,7 +18,7 @@ LEAST_LIMIT, MOST_LIMIT = 0.002, 0.01
 """But by 2 mm however thin it is, and by 10 mm at most [m]: contacts reach their full stiffness within the first
 millimetre, and sheets are thinner than that."""
 SOFT, SOFT_SHARE = 1.0e6, 0.5
-"""What is softer than rubber, by Young's modulus [Pa], may be pressed in by half of its size [1]: a sponge is."""
+"""What is softer than rubber, by Young's modulus [Pa], may be pressed in by half of its size [1]: foam is."""
 LASTING = 0.1
 """It must stay so for this time [s]; an impact is over sooner."""
 

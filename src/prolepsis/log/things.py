@@ -91,6 +91,18 @@ def own_solids(things: Sequence[Thing]) -> dict[str, tuple[int, ...]]:
     }
 
 
+def falling_apart(things: Sequence[Thing]) -> frozenset[str]:
+    """Return the names of what may fall apart: the wholes of what emerges."""
+    wholes = {thing.name: thing.whole for thing in things}
+    found: set[str] = set()
+    for part in things:
+        above = part.whole if part.emerges else None
+        while above is not None and above not in found:
+            found.add(above)
+            above = wholes.get(above)
+    return frozenset(found)
+
+
 def _frame(thing: Thing) -> tuple[Triple, Quaternion]:
     return thing.position, thing.orientation
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.log import FREE, Log
+from prolepsis.log.things import falling_apart
 from prolepsis.report.liquid import Look, look_of
 
 FAR = 0.6
@@ -33,6 +34,7 @@ class Droplets:
         """Take the particles of ``log``."""
         self._log = log
         self._particles = log.particles
+        self._falling_apart = falling_apart(log.things)
         stuffs, self._kinds = np.unique(self._particles.stuff, return_inverse=True)
         self._looks = [look_of(log.things[int(stuff)]) for stuff in stuffs]
         self.present = len(self._particles.tick) > 0 and len(self._particles.stuff) > 0
@@ -60,7 +62,7 @@ class Droplets:
         return positions, particles.holder[before] == FREE
 
     def held_share(self, tick: int) -> FloatArray:
-        """Return the liquid's share of the mass of each thing that holds some within it, shape (n,) [1]."""
+        """Return the liquid's share of the mass of each thing that is soaked with some, shape (n,) [1]."""
         things = self._log.things
         share = np.zeros(len(things))
         if not self.present:
@@ -68,7 +70,7 @@ class Droplets:
         frame = max(int(np.searchsorted(self._particles.tick, tick, side="right")) - 1, 0)
         holder = self._particles.holder[frame]
         for i in np.unique(holder[holder >= 0]):
-            if "Breakable" not in things[int(i)].roles:
+            if things[int(i)].name not in self._falling_apart:
                 held = float(self._particles.mass[holder == i].sum())
                 share[i] = held / (held + things[int(i)].mass)
         return share

@@ -8,7 +8,7 @@ import numpy as np
 
 from prolepsis.geometry.shape import BoolArray, FloatArray, Geom
 from prolepsis.log.log import Log
-from prolepsis.log.things import Thing, own_solids
+from prolepsis.log.things import Thing, falling_apart, own_solids
 from prolepsis.report.droplets import Droplets, Wet
 from prolepsis.report.framing import corners
 from prolepsis.report.lathe import turned_surface
@@ -52,6 +52,7 @@ class Stage:
         self._parents = {thing.name: thing.whole for thing in log.things}
         self._index = {thing.name: i for i, thing in enumerate(log.things)}
         self._ancestors = [self._chain(thing) for thing in log.things]
+        self._falling_apart = falling_apart(log.things)
         self._appears = [thing.emerges for thing in log.things]
         self._own = own_solids(log.things)
         spec: Any = mujoco.MjSpec()
@@ -160,10 +161,10 @@ class Stage:
         return np.min(ends, axis=(0, 1)), np.max(ends, axis=(0, 1))
 
     def _is_vessel(self, i: int) -> bool:
-        """Return whether a thing is an open container drawn as glass: none that breaks or is drawn by parts."""
+        """Return whether a thing is an open container drawn as glass: none that may fall apart or is drawn by parts."""
         thing = self.log.things[i]
         whole = len(self._own[thing.name]) == len(thing.shape.geoms)
-        return "Container" in thing.roles and "Breakable" not in thing.roles and whole
+        return "Container" in thing.roles and thing.name not in self._falling_apart and whole
 
     def _chain(self, thing: Thing) -> frozenset[int]:
         chain: set[int] = set()
