@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 import pytest
@@ -151,6 +152,67 @@ def test_what_a_thing_has_at_the_start_is_told_by_its_class(tmp_path: Path) -> N
     assert having == {"table1.polished", "b.wet"}
 
 
+WATER = ":liq1 a :Water ; :on :floor ; :volume 20.0e-6"
+
+
+@pytest.mark.parametrize(
+    ("turtle", "message"),
+    [
+        (
+            f"{WATER} ; :membraneForce 0.1 .",
+            "ttl:2: liq1 .Water. makes no use of membraneForce",
+        ),
+        (
+            f"{WATER} ; :absorbentCapacity 15.0 .",
+            "liq1 .Water. makes no use of absorbentCapacity; .*what does: Absorbent",
+        ),
+        (
+            ":egg1 a :Egg ; :on :floor ; :membraneForce 0.1 .",
+            "egg1 .Egg. makes no use of membraneForce; .*does: ShellContent",
+        ),
+        (
+            ":egg1 a :Egg ; :on :floor ; :shellThickness 0.001 .",
+            "egg1 .Egg. makes no use of shellThickness; .*what does: Shell",
+        ),
+        (
+            ":egg1 a :Egg ; :on :floor ; :absorbentCapacity 15.0 .",
+            "egg1 .Egg. makes no use of absorbentCapacity; what does: Absorbent",
+        ),
+        (":egg1 a :Egg ; :on :floor ; :viscosity 0.1 .", "egg1 .Egg. makes no use of viscosity; .*what does: Liquid"),
+        (
+            ":bowl1 a :Bowl ; :on :floor ; :bucklingForce 3.0 .",
+            "bowl1 .Bowl. makes no use of bucklingForce; .*YieldingBowl",
+        ),
+        (":b a :Block ; :on :floor ; :volume 0.001 .", "b .Block. makes no use of volume; .*what does: Liquid"),
+    ],
+)
+def test_a_quantity_of_which_nothing_makes_use_is_refused(turtle: str, message: str) -> None:
+    with pytest.raises(KnowledgeError, match=message):
+        scene(FLOOR + turtle)
+
+
+def test_a_useless_quantity_is_refused_however_it_is_told() -> None:
+    with pytest.raises(KnowledgeError, match="block1 .Block. makes no use of viscosity"):
+        scene(FLOOR + ":block1 a :Block ; :on :floor .", {"block1.viscosity": 1.0})
+
+
+@pytest.mark.parametrize(
+    "turtle",
+    [
+        ":b a :Block ; :on :floor ; :hasPart :c . :c a :Ball .",
+        ":hand1 a :Gripper ; :z 0.5 ; :hasPart :c . :c a :Ball .",
+        ":bowl1 a :PaperBowl ; :on :floor ; :hasPart :c . :c a :Ball .",
+        ":egg1 a :Egg ; :on :floor ; :hasPart :c . :c a :Ball .",
+        ":b a :Block ; :on :floor . :c a :Ball ; :partOf :b .",
+    ],
+)
+def test_a_part_of_what_has_no_such_parts_is_refused(turtle: str) -> None:
+    with pytest.raises(
+        KnowledgeError, match="ttl:2: c .Ball. is a part of .* has no such part; allowed: a thing of its"
+    ):
+        scene(FLOOR + turtle)
+
+
 class Misspelt(Kind):
     """A kind of a class that there is not."""
 
@@ -220,6 +282,17 @@ def test_what_a_kind_declares_is_set_and_reported() -> None:
 
     log = simulated(FLOOR + ":egg1 a :Egg ; :on :floor .", "wait(0.002)", Teller(tell))
     assert len(log.happenings["yawn"]) == log.tick_count
+
+
+class MisspeltQuantity(Kind):
+    """A kind that makes use of a property that there is not."""
+
+    quantities = MappingProxyType({"viscocity": "Liquid"})
+
+
+def test_a_kind_of_an_unknown_property_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(UnknownNameError, match="MisspeltQuantity: no property named 'viscocity'; did you mean 'visc"):
+        compose(load(tmp_path, FLOOR), (*known_kinds(), MisspeltQuantity()), resting_height, 100)
 
 
 def test_a_number_without_a_unit_is_no_text(tmp_path: Path) -> None:

@@ -46,19 +46,15 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
     if len(kb.objects) > MOST_INDIVIDUALS:
         raise KnowledgeError(f"the situation has {len(kb.objects)} individuals; allowed: {MOST_INDIVIDUALS}")
     kinds = sorted(kinds, key=lambda kind: kind.order)
-    begins: dict[str, str] = {}
-    for kind in kinds:
-        begin = {each.name: each.begins for each in kind.channels if each.begins is not None}
-        begins |= begin
-        for name in (*kind.roles, *begin.values(), *((kind.claims,) if kind.claims is not None else ())):
-            if name not in kb.vocabulary.classes:
-                raise UnknownNameError.of("class", name, kb.vocabulary.classes, type(kind).__name__)
+    _refuse_misspelt(kb, kinds)
+    begins = {each.name: each.begins for kind in kinds for each in kind.channels if each.begins is not None}
     flowing = {name for kind in kinds for name in kind.flowing(kb)}
     names = [name for name in kb.objects if kb.whole(name) is None]
     wholes = [name for name in names if name not in flowing]
     refuse_nonsense(kb, wholes)
     for kind in kinds:
         kind.refuse(kb)
+    _refuse_useless(kb, kinds)
     roles = partial(_roles, kb, ROLES.union(*(kind.roles for kind in kinds)))
     thing_of = partial(_thing, kb, roles, begins)
     individuals = Individuals(kb=kb, roles=roles, bodiless=lambda name: thing_of(name, None))
@@ -91,13 +87,51 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
             )
         )
         things, pools = {**things, **new}, pools + more
+    found = tuple(thing for name in names for thing in things[name])
+    _refuse_dropped(kb, {thing.name for thing in found})
     return Scene(
-        things=tuple(thing for name in names for thing in things[name]),
+        things=found,
         domain=_with_volumes(kb.domain(), [thing for name in flowing for thing in things[name]]),
         pools=pools,
         parts_known=tuple(part for name in names if name in made for part in made[name].parts),
         kinds=tuple(kinds),
     )
+
+
+def _refuse_misspelt(kb: KnowledgeBase, kinds: Sequence[Kind]) -> None:
+    """Refuse kinds that name what is not in the ontology."""
+    known = kb.vocabulary
+    for kind in kinds:
+        where = type(kind).__name__
+        begins = [each.begins for each in kind.channels if each.begins is not None]
+        claims = () if kind.claims is None else (kind.claims,)
+        for name in (*kind.roles, *begins, *claims, *kind.quantities.values()):
+            if name not in known.classes:
+                raise UnknownNameError.of("class", name, known.classes, where)
+        for name in kind.quantities:
+            if name not in known.properties:
+                raise UnknownNameError.of("property", name, known.properties, where)
+
+
+def _refuse_useless(kb: KnowledgeBase, kinds: Sequence[Kind]) -> None:
+    """Refuse a quantity that is told of something of which no kind makes use of it."""
+    for (name, prop), said in kb.situation.said.items():
+        classes = [kind.quantities[prop] for kind in kinds if prop in kind.quantities]
+        if classes and said[0].where != "drawn" and name in kb.objects and not any(kb.is_a(name, c) for c in classes):
+            raise KnowledgeError(
+                f"{said[0].where}: {name} ({kb.kind(name)}) makes no use of {prop}; what does: {brief_list(classes)}"
+            )
+
+
+def _refuse_dropped(kb: KnowledgeBase, made: Collection[str]) -> None:
+    """Refuse parts of which nothing has been made: they would be missing without a word."""
+    for name in kb.objects:
+        whole = kb.whole(name)
+        if whole is not None and name not in made:
+            raise KnowledgeError(
+                f"{kb.place(name)}: {name} ({kb.kind(name)}) is a part of {whole}, but a {kb.kind(whole)} has no such "
+                "part; allowed: a thing of its own, without :hasPart"
+            )
 
 
 def _with_volumes(domain: Domain, flowing: Sequence[Thing]) -> Domain:

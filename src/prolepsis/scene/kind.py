@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, Protocol
 
 from prolepsis.geometry.shape import Triple
@@ -151,6 +152,8 @@ class Kind:
     """Whether what it claims is lowered onto what it is on."""
     roles: frozenset[str] = frozenset()
     """Classes that it or recognition goes by, beside those of ``compose``."""
+    quantities: Mapping[str, str] = MappingProxyType({})
+    """Quantities of which only kinds make use, and the class of the individuals of which this one does."""
     channels: tuple[Channel, ...] = ()
     """What can be logged of its things; its controllers set those that nothing reads."""
     happenings: tuple[HappeningType, ...] = ()

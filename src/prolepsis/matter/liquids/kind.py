@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.log.things import Thing
@@ -16,6 +17,9 @@ class Liquids(Kind):
     """The kind of what flows."""
 
     order = 10
+    quantities = MappingProxyType(
+        dict.fromkeys(("viscosity", "surfaceTension", "contactAngle", "recedingAngle", "volume", "fill"), "Liquid")
+    )
 
     def flowing(self, kb: KnowledgeBase) -> Sequence[str]:
         """Return the liquids that are no part of anything."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from itertools import product
+from types import MappingProxyType
 
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.log.happenings import DETACHMENT
@@ -14,6 +15,20 @@ from prolepsis.scene.running import Running
 from prolepsis.scene.scene import Pool
 from prolepsis.terms.errors import KnowledgeError, brief_list
 
+OF_A_SHELL = (
+    "plateStiffness",
+    "poleStiffnessRatio",
+    "fractureStrain",
+    "crackTipWeakening",
+    "crackedForceShare",
+    "crackReliefShare",
+    "shellMembraneStrength",
+    "shellMembraneStretch",
+    "shellThickness",
+    "pieceCount",
+    "poissonRatio",
+)
+"""What decides how a shell breaks, beside its breakingForce."""
 NEAR = 0.01
 """Contacts of breakable things are detected at this distance [m], so that the substep shrinks before the impact."""
 
@@ -24,6 +39,13 @@ class Shells(Kind):
     order = 20
     claims = "Shelled"
     roles = frozenset({"Breakable"})
+    quantities = MappingProxyType(
+        {
+            **dict.fromkeys(("membraneForce", "probeRadius"), "ShellContent"),
+            **dict.fromkeys(OF_A_SHELL, "Shell"),
+            "adhesionStrength": "Kernel",
+        }
+    )
     channels = (
         Channel(
             name="load",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from types import MappingProxyType
 
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.scene.kind import Controller, Kind
@@ -27,6 +28,7 @@ class Sponges(Kind):
 
     order = 40
     roles = frozenset({"Absorbent"})
+    quantities = MappingProxyType(dict.fromkeys({*NEEDED, "saturation"} - {"youngsModulus"}, "Absorbent"))
 
     def refuse(self, kb: KnowledgeBase) -> None:
         """Refuse what is told to be soaked but not with what, and what absorbs but not how, or never moves."""

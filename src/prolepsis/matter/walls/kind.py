@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from types import MappingProxyType
 
 from prolepsis.log.things import Thing
 from prolepsis.matter.walls.yielding_bowl import bowl_parts, hinge_panels
@@ -17,6 +18,9 @@ class YieldingWalls(Kind):
     order = 30
     claims = "YieldingBowl"
     roles = frozenset({"YieldingBowl"})
+    quantities = MappingProxyType(
+        dict.fromkeys(("panelCount", "bucklingForce", "bucklingDisplacement", "yieldStress"), "YieldingBowl")
+    )
     channels = (
         Channel(
             name="dent",
