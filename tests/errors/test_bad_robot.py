@@ -62,6 +62,9 @@ TABLE = [
     ('"left", "right"', '"left", "left"', "gripper1: fingers: two joints of two fingers are needed"),
     ('"left", "right"', '"left"', "robot.grippers.gripper1.fingers.1: field required"),
     ("tool = [0.08, 0, 0]", "tool = [0.08, 0]", "robot.grippers.gripper1.tool.2: field required"),
+    ("tool = [0.08, 0, 0]", "tool = [1, 2, 3, 4]", "robot.grippers.gripper1.tool: has 4 items; allowed: at most 3"),
+    ("tool = [0.08, 0, 0]", 'tool = "front"', "robot.grippers.gripper1.tool: give a list"),
+    ('"left", "right"]', '"left", "right"]\nspeed = "fast"', "gripper1.speed: input should be a valid number"),
     (
         "tool = ",
         "forward = [0, 1, 0]\ntool = ",

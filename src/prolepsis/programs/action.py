@@ -15,7 +15,7 @@ from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.scene.scene import Scene
 from prolepsis.system.text_files import is_file
 from prolepsis.terms.errors import PlanError, UnknownNameError, brief, brief_list
-from prolepsis.terms.terms import Term, Value, Variable
+from prolepsis.terms.terms import Term, Value, Variable, format_value
 from prolepsis.terms.units import to_float
 
 KINDS: Mapping[str, str] = {
@@ -224,7 +224,7 @@ def _bind(parameter: ParameterSpec, value: Value, term: Term, scene: Scene) -> A
         return _bind_thing(parameter, value, where, scene)
     if parameter.kind == "part":
         if value not in PARTS:
-            raise PlanError(f"{where} must be one of {', '.join(PARTS)}, not {brief(value)}")
+            raise PlanError(f"{where} must be one of {', '.join(PARTS)}, not {brief(format_value(value))}")
         return value
     if parameter.kind in LISTS:
         count, example = LISTS[parameter.kind]
@@ -240,7 +240,7 @@ def _bind(parameter: ParameterSpec, value: Value, term: Term, scene: Scene) -> A
             raise UnknownNameError.of("force level", value, levels, where)
         return newtons
     if not isinstance(value, int | float) or isinstance(value, bool):
-        raise PlanError(f"{where} must be a number {KINDS[parameter.kind]}, not {brief(value)}")
+        raise PlanError(f"{where} must be a {_number(parameter.kind)}, not {brief(format_value(value))}")
     number = _within(parameter, to_float(value), where)
     if parameter.kind == "count" and not number.is_integer():
         raise PlanError(f"{where} must be a whole number, not {number:g}")
@@ -249,9 +249,14 @@ def _bind(parameter: ParameterSpec, value: Value, term: Term, scene: Scene) -> A
     return number
 
 
+def _number(kind: str) -> str:
+    """Return how a message calls a number of a kind: what it is, or only its unit."""
+    return f"number {KINDS[kind]}" if KINDS[kind].startswith("[") else KINDS[kind]
+
+
 def _bind_thing(parameter: ParameterSpec, value: Value, where: str, scene: Scene) -> Thing:
     if not isinstance(value, str):
-        raise PlanError(f"{where} must be the {KINDS[parameter.kind]}, not {brief(value)}")
+        raise PlanError(f"{where} must be the {KINDS[parameter.kind]}, not {brief(format_value(value))}")
     role = ROLES.get(parameter.kind)
     choices = [t for t in scene.things if t.whole is None and (role in t.roles if role else not t.roles & OWN)]
     for thing in choices:
@@ -290,7 +295,7 @@ def _is_loose(thing: Thing, scene: Scene) -> bool:
 
 def _bind_file(value: Value, where: str, scene: Scene) -> Path:
     if not isinstance(value, str):
-        raise PlanError(f"{where} must be the {KINDS['file']}, not {brief(value)}")
+        raise PlanError(f"{where} must be the {KINDS['file']}, not {brief(format_value(value))}")
     if not is_file(scene.folder / value):
         raise PlanError(f"{where}: there is no file {scene.folder / value}")
     return scene.folder / value

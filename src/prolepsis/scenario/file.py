@@ -118,7 +118,8 @@ def read_table(type: type[T], table: Mapping[str, Any], place: str) -> T:
         return TypeAdapter(type).validate_python(table)
     except ValidationError as error:
         problem = error.errors(include_url=False)[0]
-        keys = [str(key) for key in problem["loc"]]
+        # Where a value may be of several types, pydantic adds which of them it has tried.
+        keys = [str(key) for key in problem["loc"] if "constrained-" not in str(key)]
         where = place + "".join(f".{key}" for key in keys[:-1])
         described: Any = OwnGripper if keys[0] == "grippers" and len(keys) > 2 else type
         known = {each.name: each for each in fields(described)}
@@ -127,7 +128,7 @@ def read_table(type: type[T], table: Mapping[str, Any], place: str) -> T:
         if problem["type"] == "missing" and not keys[-1].isdigit():
             needed = ", ".join(n for n, each in known.items() if MISSING is each.default is each.default_factory)
             raise ScenarioError(f"{where}: the key {keys[-1]!r} is missing; needed: {needed}") from None
-        raise ScenarioError(f"{where}.{keys[-1]}: {problem['msg'].lower()}") from None
+        raise ScenarioError(f"{where}.{keys[-1]}: {_said(problem)}") from None
 
 
 def unknown_key(place: str, key: str, known: Collection[str]) -> ScenarioError:
@@ -166,4 +167,18 @@ def _first_problem(error: ValidationError, table: Mapping[str, Any]) -> str:
         return f"robot = {given}: give a name, or a table [robot] with file and grippers"
     if keys[0] == "draw":
         return f"draw = {given}: must be true or false"
-    return f"{keys[0]} = {given}: {problem['msg'].lower()}"
+    return f"{keys[0]} = {given}: {_said(problem)}"
+
+
+def _said(problem: Any) -> str:
+    """Return what is wrong as TOML has it: a table is no dictionary or dataclass there, a list no tuple."""
+    if problem["type"] in ("dict_type", "mapping_type", "dataclass_type", "dataclass_exact_type", "model_type"):
+        return "give a table"
+    if problem["type"] in ("tuple_type", "list_type"):
+        return "give a list"
+    if problem["type"] in ("too_long", "too_short"):
+        most, least = problem["ctx"].get("max_length"), problem["ctx"].get("min_length")
+        return f"has {problem['ctx']['actual_length']} items; allowed: " + (
+            f"at least {least}" if most is None else f"at most {most}"
+        )
+    return str(problem["msg"]).lower().removesuffix(", unable to parse string as a number")
