@@ -191,6 +191,45 @@ def test_a_quantity_of_which_nothing_makes_use_is_refused(turtle: str, message: 
         scene(FLOOR + turtle)
 
 
+@pytest.mark.parametrize(
+    ("turtle", "message"),
+    [
+        (
+            ":b a :Block ; :on :floor ; :radius 0.3 .",
+            "b .Block.: a box makes no use of radius; what it does: height, le",
+        ),
+        (":b a :Block ; :on :floor ; :lid true .", "b .Block.: a box makes no use of lid"),
+        (":b a :Ball ; :on :floor ; :length 0.1 .", "b .Ball.: a sphere makes no use of length; what it does: radius"),
+        (
+            ":c a :Cup ; :on :floor ; :holeHeight 0.05 .",
+            "c .Cup.: a cup makes no use of holeHeight; what it does: bott",
+        ),
+        (":b a :Block ; :on :floor ; :scale 2.0 .", "b .Block.: a box makes no use of scale"),
+    ],
+)
+def test_an_extent_that_a_shape_has_not_is_refused(turtle: str, message: str) -> None:
+    with pytest.raises(KnowledgeError, match=message):
+        scene(FLOOR + turtle)
+
+
+@pytest.mark.parametrize(
+    ("said", "message"),
+    [
+        (":fill 0.5 ; :volume 1.0e-4", "l .Water.: its volume and fill are stated; allowed: one of volume, mass, fill"),
+        (":mass 0.5 ; :volume 1.0e-4", "l .Water.: its volume and mass are stated; allowed: one of"),
+        (":mass 0.05 ; :fill 0.5", "l .Water.: its mass and fill are stated; allowed: one of"),
+    ],
+)
+def test_two_amounts_of_a_liquid_are_refused(said: str, message: str) -> None:
+    with pytest.raises(KnowledgeError, match=message):
+        scene(FLOOR + f":c a :Cup ; :on :floor ; :contains :l . :l a :Water ; {said} .")
+
+
+def test_a_mass_that_is_that_of_the_volume_may_be_told_too() -> None:
+    made = scene(FLOOR + ":c a :Cup ; :on :floor ; :contains :l . :l a :Water ; :mass 0.0998 ; :volume 1.0e-4 .")
+    assert made.thing("l").mass == pytest.approx(0.0998)
+
+
 def test_a_useless_quantity_is_refused_however_it_is_told() -> None:
     with pytest.raises(KnowledgeError, match="block1 .Block. makes no use of viscosity"):
         scene(FLOOR + ":block1 a :Block ; :on :floor .", {"block1.viscosity": 1.0})

@@ -17,7 +17,7 @@ from prolepsis.scene.coherence import refuse_nonsense
 from prolepsis.scene.colours import colour_of
 from prolepsis.scene.kind import Draft, Individuals, Kind, Made, RestingHeight, Roles
 from prolepsis.scene.scene import Pool, Scene
-from prolepsis.scene.shapes import SHAPES
+from prolepsis.scene.shapes import EXTENTS, SHAPES, Extents
 from prolepsis.scene.shapes.holes import refuse_holes
 from prolepsis.scene.shapes.mesh import mesh
 from prolepsis.system.threads import one_thread
@@ -223,16 +223,31 @@ def _built(kb: KnowledgeBase, name: str, shape: str, quantities: dict[str, float
         if file is None:
             raise KnowledgeError(f"{name} ({kb.kind(name)}) is a mesh but has no file")
         refuse_holes(quantities, "a mesh")
+        _refuse_unasked(kb, name, shape, {"scale"})
         return mesh(Path(file), quantities.get("scale", 1.0))
     if shape not in SHAPES:
         raise KnowledgeError(f"{name}: shape {shape} cannot be built; known: {', '.join((*SHAPES, MESH_SHAPE))}")
     family = "table" if kb.is_a(name, "Table") and shape == "box" else shape
+    extents = Extents(quantities)
     try:
-        return SHAPES[family](quantities)
+        built = SHAPES[family](extents)
     except KeyError as missing:
         raise KnowledgeError(f"{name} ({kb.kind(name)}) is a {shape} but has no {missing.args[0]}") from None
     except KnowledgeError as error:
         raise KnowledgeError(f"{name} ({kb.kind(name)}): {error}") from None
+    _refuse_unasked(kb, name, family, extents.asked)
+    return built
+
+
+def _refuse_unasked(kb: KnowledgeBase, name: str, shape: str, asked: Collection[str]) -> None:
+    """Refuse an extent that is told of what has another shape: nothing would come of it."""
+    for extent in sorted(EXTENTS.difference(asked)):
+        for said in kb.situation.said.get((name, extent), ())[:1]:
+            if said.where != "drawn" and said.value != "false":
+                used = brief_list(sorted(EXTENTS.intersection(asked)))
+                raise KnowledgeError(
+                    f"{said.where}: {name} ({kb.kind(name)}): a {shape} makes no use of {extent}; what it does: {used}"
+                )
 
 
 def _put_on(thing: Thing, name: str, under: tuple[Thing, ...], resting_height: RestingHeight) -> Thing:

@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.log.things import Thing
-from prolepsis.matter.liquids.liquids import is_liquid, liquid_thing, place_of
+from prolepsis.matter.liquids.liquids import is_liquid, liquid_thing, place_of, refuse_amounts
 from prolepsis.scene.kind import Controller, Draft, Kind
 from prolepsis.scene.running import Running
 from prolepsis.scene.scene import Pool
@@ -29,6 +29,7 @@ class Liquids(Kind):
         """Refuse what is told of it that cannot be so."""
         for name in self.flowing(kb):
             place_of(kb, name)
+            refuse_amounts(kb, name)
 
     def fill(self, draft: Draft) -> tuple[Mapping[str, tuple[Thing, ...]], tuple[Pool, ...]]:
         """Return what flows of it once all solids are at their places."""

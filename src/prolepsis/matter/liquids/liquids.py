@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from prolepsis.geometry.shape import Shape
@@ -12,6 +13,11 @@ from prolepsis.terms.errors import KnowledgeError
 
 RELATIONS = ("contains", "on", "absorbs")
 """How a liquid is told to be somewhere."""
+
+AMOUNTS = ("volume", "mass", "fill")
+"""What tells how much of a liquid there is."""
+ALIKE = 1e-3
+"""By what share a stated mass may differ from density times a stated volume: nobody rounds more."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -65,6 +71,20 @@ def place_of(kb: KnowledgeBase, name: str) -> Place:
     if place.relation == "absorbs":
         _refuse_dry(kb, place.host, name)
     return place
+
+
+def refuse_amounts(kb: KnowledgeBase, name: str) -> None:
+    """Refuse a liquid of which two amounts are told that are not the same.
+
+    Raises:
+        KnowledgeError: With both.
+    """
+    told = [amount for amount in AMOUNTS if kb.stated(name, amount) is not None]
+    volume, mass, density = (kb.number(name, known) for known in ("volume", "mass", "density"))
+    agree = volume and mass and density and math.isclose(mass, density * volume, rel_tol=ALIKE)
+    if len(told) > 1 and not (told == ["volume", "mass"] and agree):
+        where = f"{kb.place(name)}: {name} ({kb.kind(name)})"
+        raise KnowledgeError(f"{where}: its {' and '.join(told)} are stated; allowed: one of {', '.join(AMOUNTS)}")
 
 
 def _refuse_dry(kb: KnowledgeBase, sponge: str, liquid: str) -> None:
