@@ -44,7 +44,7 @@ class ArmPaths:
         self.turns_freely = len(arm.joints) >= ALL_TURNS
         """Whether it can turn the hand as it likes."""
         self._kinematics = kinematics
-        self._gap, self._opening_joints = gap, len(arm.gripper.joints)
+        self._gap, self._opening_joints = gap, max(len(arm.gripper.joints), 1)
         self._first = first
         self._reference = reference
         self._mount_name, self._palm = mount, palm

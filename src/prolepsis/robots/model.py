@@ -39,7 +39,7 @@ class RobotModel:
         posture = {joint.name: joint.home for joint in self.robot.joints}
         for arm in self.robot.arms:
             joints = arm.gripper.joints
-            posture |= dict.fromkeys(joints, self.gaps[arm.name].length(openings[arm.name]) / len(joints))
+            posture |= dict.fromkeys(joints, self.gaps[arm.name].length(openings[arm.name]) / max(len(joints), 1))
         for name, value in posture.items():
             data.joint(name).qpos[0] = value
         follow_couplings(self.model, data)
