@@ -15,6 +15,7 @@ from tests.scenes import run, scene
 from prolepsis.engine.placing import resting_height
 from prolepsis.engine.simulation import simulate
 from prolepsis.engine.world import compile_world
+from prolepsis.geometry.shape import Geom
 from prolepsis.log.files import read_log, write_log
 from prolepsis.log.happenings import Happening, HappeningType
 from prolepsis.log.log import Log
@@ -22,7 +23,7 @@ from prolepsis.log.things import FREE, Thing, falling_apart, jointed, own_solids
 from prolepsis.matter.kinds import known_kinds
 from prolepsis.programs import read_program
 from prolepsis.scene.compose import compose
-from prolepsis.scene.kind import Channel, Controller, Kind
+from prolepsis.scene.kind import Channel, Controller, Individuals, Kind, Made
 from prolepsis.scene.parts import Panel, Shard
 from prolepsis.scene.running import TICK, Running
 from prolepsis.terms.errors import InputError, KnowledgeError, UnknownNameError
@@ -125,6 +126,34 @@ def test_a_kind_may_add_columns_to_particles_and_happenings(tmp_path: Path) -> N
         (birthday,) = each.happenings.values()
         assert (birthday.tick.tolist(), birthday.things["liquid"].tolist()) == ([49], [log.index("liq1")])
         assert birthday.numbers["age"].tolist() == [0.05]
+
+
+class Misfitting(Kind):
+    """A kind that changes the columns of particles when it must not."""
+
+    def __init__(self, late: bool) -> None:
+        self.late = late
+
+    def start(self, state: Running) -> Sequence[Controller]:
+        def tell(state: Running) -> None:
+            assert state.particles is not None
+            state.particles.columns["age"] = np.zeros(len(state.particles.mass) if self.late else 3)
+
+        if not self.late:
+            tell(state)
+        return [Telling(tell)]
+
+
+@pytest.mark.parametrize(
+    ("late", "message"),
+    [
+        (True, "at tick 20 their columns are age, at the start none; a kind adds its own when it starts"),
+        (False, r"particles: age is of shape \(3,\); needed: \(\d+,\), one for each"),
+    ],
+)
+def test_columns_of_particles_are_one_for_each_from_the_start_on(late: bool, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        simulated(FLOOR + ":liq1 a :Water ; :on :floor ; :volume 20.0e-6 .", "wait(0.03)", Misfitting(late))
 
 
 def test_what_has_particles_of_its_own_is_seen_where_it_is() -> None:
@@ -377,3 +406,39 @@ def test_a_solid_is_a_part_s_only_where_it_is_that_part_s() -> None:
     link = Thing(name="arm", kind="Thing", shape=known.thing("bowl1/panel0").shape, mount=jointed())
     next_link = replace(link, name="arm/next", whole="arm", position=(0.3, 0.0, 0.0), mount=jointed("arm"))
     assert own_solids((link, next_link))["arm"] == tuple(range(len(link.shape.geoms)))
+
+
+class Trestles(Kind):
+    """A kind that builds its things itself: a board on a leg that is a part of its own."""
+
+    claims = "Trestle"
+    shapes = ("trestle",)
+
+    def parts(self, individuals: Individuals, whole: Thing) -> Made:
+        board = Geom(type="box", size=(0.1, 0.1, 0.01))
+        leg = Geom(type="box", size=(0.02, 0.02, 0.05), position=(0.0, 0.0, -0.06))
+        part = Thing(
+            name=f"{whole.name}/leg",
+            kind="Leg",
+            shape=replace(whole.shape, geoms=(leg,)),
+            position=whole.position,
+            orientation=whole.orientation,
+            mass=0.1,
+            whole=whole.name,
+            mount=jointed(whole.name),
+        )
+        return Made(things=(replace(whole, shape=replace(whole.shape, geoms=(board,))), part))
+
+
+TRESTLE = """@prefix owl: <http://www.w3.org/2002/07/owl#> . @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .
+    :trestle a :ShapeKind . :Trestle a owl:Class ; rdfs:subClassOf :Solid ; rdfs:comment "A board on a leg." . """
+
+
+@pytest.mark.parametrize("yaw", [0.0, 30.0])
+def test_what_its_kind_builds_rests_on_what_it_is_on(tmp_path: Path, yaw: float) -> None:
+    trestle = f":t a :Trestle ; :shape :trestle ; :mass 1.0 ; :yaw {yaw} ; :on :table1 . "
+    kb = load(tmp_path, TRESTLE + FLOOR + ":table1 a :Table ; :x 1.0 . " + trestle)
+    made = compose(kb, (*known_kinds(), Trestles()), resting_height, 100)
+    top = 0.7
+    assert made.thing("t").position == pytest.approx((1.0, 0.0, top + 0.11), abs=1e-5)
+    assert made.thing("t/leg").position == made.thing("t").position

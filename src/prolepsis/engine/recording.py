@@ -20,6 +20,7 @@ from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.log import Contacts, Joints, Particles
 from prolepsis.log.particle_tables import rounded
 from prolepsis.scene.particles import PERIOD, ParticleState
+from prolepsis.terms.errors import InputError, brief_list
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -260,13 +261,26 @@ class Frames:
     holders: list[npt.NDArray[np.int16]] = field(default_factory=list["npt.NDArray[np.int16]"])
 
     def tick(self, state: State, tick: int) -> None:
-        """Copy the particles, if it is time."""
+        """Copy the particles, if it is time.
+
+        Raises:
+            InputError: If a kind has given them columns that are none.
+        """
         if state.particles is None or tick % PERIOD:
             return
         self.ticks.append(tick)
         self.positions.append(rounded(_places(state, state.particles)))
         self.holders.append(state.particles.holder.copy())
-        self.columns.append({name: column.astype(np.float32) for name, column in state.particles.columns.items()})
+        columns, count = state.particles.columns, len(state.particles.mass)
+        for name, column in columns.items():
+            if column.shape != (count,):
+                raise InputError(f"particles: {name} is of shape {column.shape}; needed: {(count,)}, one for each")
+        if self.columns and {*columns} != {*self.columns[0]}:
+            raise InputError(
+                f"particles: at tick {tick} their columns are {brief_list(columns)}, at the start "
+                f"{brief_list(self.columns[0])}; a kind adds its own when it starts, and keeps it"
+            )
+        self.columns.append({name: column.astype(np.float32) for name, column in columns.items()})
 
     def table(self, state: State) -> Particles:
         """Return the frames as columns of the log."""

@@ -7,8 +7,10 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from prolepsis.geometry.rotations import turned
-from prolepsis.geometry.shape import IDENTITY, Shape
+import numpy as np
+
+from prolepsis.geometry.rotations import inverse, product, rotated, turned
+from prolepsis.geometry.shape import IDENTITY, Shape, triple
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.knowledge.situation import MOST_INDIVIDUALS
 from prolepsis.log.domain import Domain
@@ -71,7 +73,12 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
         thing = thing_of(name, owners[name].shapes)
         if name in below:
             under = made[below[name]].things if below[name] in made else ()
-            thing = _put_on(thing, below[name], under, resting_height)
+            if thing.shape.geoms:
+                thing = _put_on(thing, below[name], under, resting_height)
+            else:
+                # Its kind builds its shape: it is lowered as what it is made of.
+                made_of = _all_of(thing, owners[name].parts(individuals, thing).things)
+                thing = replace(_put_on(made_of, below[name], under, resting_height), shape=thing.shape)
         if thing.fixed and owners[name].claims is not None:
             raise KnowledgeError(
                 f"{kb.place(name)}: {name} ({thing.kind}) is Furniture, which never moves, and {owners[name].claims}; "
@@ -248,6 +255,24 @@ def _refuse_unasked(kb: KnowledgeBase, name: str, shape: str, asked: Collection[
                 raise KnowledgeError(
                     f"{said.where}: {name} ({kb.kind(name)}): a {shape} makes no use of {extent}; what it does: {used}"
                 )
+
+
+def _all_of(whole: Thing, parts: Sequence[Thing]) -> Thing:
+    """Return a whole that is one with its parts, each where it is: all bodies that it is made of."""
+    back, origin = inverse(whole.orientation), np.asarray(whole.position)
+    geoms = [
+        replace(
+            geom,
+            position=triple(
+                rotated(back, triple(np.asarray(part.position) + rotated(part.orientation, geom.position) - origin))
+            ),
+            orientation=product(back, product(part.orientation, geom.orientation)),
+        )
+        for part in parts
+        if part.is_body
+        for geom in part.shape.geoms
+    ]
+    return replace(whole, shape=replace(whole.shape, geoms=tuple(geoms)))
 
 
 def _put_on(thing: Thing, name: str, under: tuple[Thing, ...], resting_height: RestingHeight) -> Thing:
