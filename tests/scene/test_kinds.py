@@ -17,7 +17,7 @@ from prolepsis.engine.simulation import simulate
 from prolepsis.engine.world import compile_world
 from prolepsis.geometry.shape import Geom
 from prolepsis.log.files import read_log, write_log
-from prolepsis.log.happenings import Happening, HappeningType
+from prolepsis.log.happenings import DETACHMENT, Happening, HappeningType
 from prolepsis.log.log import Log
 from prolepsis.log.things import FREE, Thing, falling_apart, jointed, own_solids
 from prolepsis.matter.kinds import known_kinds
@@ -442,3 +442,23 @@ def test_what_its_kind_builds_rests_on_what_it_is_on(tmp_path: Path, yaw: float)
     top = 0.7
     assert made.thing("t").position == pytest.approx((1.0, 0.0, top + 0.11), abs=1e-5)
     assert made.thing("t/leg").position == made.thing("t").position
+
+
+class Sticks(Kind):
+    """A kind of what breaks without a shell."""
+
+    claims = "Stick"
+    happenings = (DETACHMENT,)
+
+
+STICK = """@prefix owl: <http://www.w3.org/2002/07/owl#> . @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .
+    :Stick a owl:Class ; rdfs:subClassOf :Block ; rdfs:comment "It snaps." . """
+
+
+def test_what_another_kind_breaks_may_be_breakable(tmp_path: Path) -> None:
+    stick = load(tmp_path, STICK + FLOOR + ":s a :Stick ; :breakingForce 5.0 ; :on :floor .")
+    made = compose(stick, (*known_kinds(), Sticks()), resting_height, 100)
+    assert "Breakable" in made.thing("s").roles
+    block = load(tmp_path, STICK + FLOOR + ":b a :Block ; :breakingForce 5.0 ; :on :floor .")
+    with pytest.raises(KnowledgeError, match="b .Block. has a breakingForce, but .* what does: .*Shelled, Stick"):
+        compose(block, (*known_kinds(), Sticks()), resting_height, 100)

@@ -55,7 +55,7 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
     wholes = [name for name in names if name not in flowing]
     refuse_nonsense(kb, wholes)
     for kind in kinds:
-        kind.refuse(kb)
+        kind.refuse(kb, kinds)
     _refuse_useless(kb, kinds)
     roles = partial(_roles, kb, ROLES.union(*(kind.roles for kind in kinds)))
     thing_of = partial(_thing, kb, roles, begins)

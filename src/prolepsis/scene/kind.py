@@ -159,13 +159,17 @@ class Kind:
     happenings: tuple[HappeningType, ...] = ()
     """What its controllers may report."""
 
-    def refuse(self, kb: KnowledgeBase) -> None:
+    def refuse(self, kb: KnowledgeBase, kinds: Sequence[Kind]) -> None:
         """Refuse a situation that says of its individuals what cannot be so.
+
+        Args:
+            kb: The situation.
+            kinds: All kinds that there are, this one too: what it cannot do, another may.
 
         Raises:
             KnowledgeError: With what is wrong, and what is allowed.
         """
-        del kb
+        del kb, kinds
 
     def flowing(self, kb: KnowledgeBase) -> Sequence[str]:
         """Return the individuals that are no bodies, for which its ``fill`` finds a place."""

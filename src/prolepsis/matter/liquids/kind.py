@@ -25,7 +25,7 @@ class Liquids(Kind):
         """Return the liquids that are no part of anything."""
         return [name for name in kb.objects if is_liquid(kb, name)]
 
-    def refuse(self, kb: KnowledgeBase) -> None:
+    def refuse(self, kb: KnowledgeBase, kinds: Sequence[Kind]) -> None:
         """Refuse what is told of it that cannot be so."""
         for name in self.flowing(kb):
             place_of(kb, name)

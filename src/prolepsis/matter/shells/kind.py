@@ -63,10 +63,11 @@ class Shells(Kind):
     )
     happenings = (DETACHMENT,)
 
-    def refuse(self, kb: KnowledgeBase) -> None:
-        """Refuse what is told of it that cannot be so."""
+    def refuse(self, kb: KnowledgeBase, kinds: Sequence[Kind]) -> None:
+        """Refuse what is told to break that no kind breaks: none that tells of detachments claims it."""
+        breaking = [kind.claims for kind in kinds if kind.claims is not None and DETACHMENT in kind.happenings]
         for name in kb.objects:
-            _refuse_strength(kb, name)
+            _refuse_strength(kb, name, breaking)
 
     def parts(self, individuals: Individuals, whole: Thing) -> Made:
         """Return it with its parts."""
@@ -111,9 +112,15 @@ class Shells(Kind):
         return [*breaking, *opening, *(Membrane(state, stuff) for stuff in state.scene.each(Membraned))]
 
 
-def _refuse_strength(kb: KnowledgeBase, name: str) -> None:
-    """Refuse what does not break here though it is told to: its strength would never come to bear."""
-    if kb.is_a(name, "Shell"):
+def _refuse_strength(kb: KnowledgeBase, name: str, breaking: Sequence[str]) -> None:
+    """Refuse what does not break here though it is told to: its strength would never come to bear.
+
+    Args:
+        kb: The situation.
+        name: The individual.
+        breaking: The classes of what breaks.
+    """
+    if kb.is_a(name, "Shell") or any(kb.is_a(name, each) for each in breaking if each != Shells.claims):
         return
     known = kb.find(name, "breakingForce")
     if known is not None and known.origin != "derived":
@@ -122,13 +129,13 @@ def _refuse_strength(kb: KnowledgeBase, name: str) -> None:
             raise KnowledgeError(
                 f"{kb.place(name)}: {name} breaks by its shell; state the breakingForce of {shells[0]}"
             )
-        raise _unbreakable(kb, name, "has a breakingForce")
+        raise _unbreakable(kb, name, "has a breakingForce", breaking)
     if kb.whole(name) is None and kb.is_a(name, "Breakable") and not kb.is_a(name, "Shelled"):
-        raise _unbreakable(kb, name, "is Breakable")
+        raise _unbreakable(kb, name, "is Breakable", breaking)
 
 
-def _unbreakable(kb: KnowledgeBase, name: str, told: str) -> KnowledgeError:
-    kinds = brief_list(c for c in kb.class_names() if "Shelled" in kb.vocabulary.told_classes((c,)))
+def _unbreakable(kb: KnowledgeBase, name: str, told: str, breaking: Sequence[str]) -> KnowledgeError:
+    kinds = brief_list(c for c in kb.class_names() if {*breaking} & {*kb.vocabulary.told_classes((c,))})
     return KnowledgeError(
         f"{kb.place(name)}: {name} ({kb.kind(name)}) {told}, but does not break here; what does: {kinds}"
     )

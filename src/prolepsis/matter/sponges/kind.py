@@ -30,7 +30,7 @@ class Sponges(Kind):
     roles = frozenset({"Absorbent"})
     quantities = MappingProxyType(dict.fromkeys({*NEEDED, "saturation"} - {"youngsModulus"}, "Absorbent"))
 
-    def refuse(self, kb: KnowledgeBase) -> None:
+    def refuse(self, kb: KnowledgeBase, kinds: Sequence[Kind]) -> None:
         """Refuse what is told to be soaked but not with what, and what absorbs but not how, or never moves."""
         for name in kb.objects:
             if kb.is_a(name, "Absorbent"):
