@@ -185,6 +185,17 @@ def test_a_vessel_may_be_full_to_the_brim(vessel: str, more: str) -> None:
     assert made.number("liq1", "mass") == liquid.mass
 
 
+@pytest.mark.parametrize("vessel", ["PaperBowl", "Bowl"])
+def test_more_fill_is_more_liquid(vessel: str) -> None:
+    def volume(fill: float) -> float:
+        text = f":floor a :Floor . :v1 a :{vessel} ; :on :floor ; :contains :liq1 . :liq1 a :Water ; :fill {fill} ."
+        return scene(text, particles=300).thing("liq1").quantities["volume"]
+
+    volumes = [volume(fill) for fill in (0.5, 0.9, 0.99, 0.998, 0.999, 1.0)]
+    assert volumes == sorted(volumes)
+    assert volumes[-1] == pytest.approx(2.0 * volumes[0])
+
+
 def test_several_liquids_may_fill_a_vessel_together() -> None:
     text = ":floor a :Floor . :v1 a :PaperBowl ; :on :floor ; :contains :a , :b . :a a :Water ; :fill 0.5 . :b a :Honey"
     made = scene(f"{text} ; :fill 0.5 .", particles=300)

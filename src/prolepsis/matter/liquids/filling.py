@@ -59,8 +59,7 @@ def fill(
     volumes = {each.name: _volume(each, places[each.name], basins) for each in liquids}
     for host, (container, basin) in basins.items():
         inside = [each for each in liquids if places[each.name] == Place(relation="contains", host=host)]
-        if sum(volumes[each.name] for each in inside) > FULL * basin.capacity:
-            volumes |= _fills(container, basin, solids[host][0], inside, volumes)
+        volumes |= _fills(container, basin, solids[host][0], inside, volumes)
     spacing = (max(volumes.values()) / particles) ** (1 / 3)
     counts = {name: round(volume / spacing**3) for name, volume in volumes.items()}
     _refuse_counts(counts, particles)
@@ -140,17 +139,19 @@ def _fills(
 ) -> dict[str, float]:
     """Return the volumes [m^3] of liquids that follow from their fill, as shares of what the vessel holds upright.
 
-    Its ``capacity`` is that of an ideal outline, which may be more than fits between its walls.
+    Its ``capacity`` is that of an ideal outline, which may be more than fits between its walls. Whether it is does not
+    hang on the fill, so that more of it is always more.
     """
+    capacity = vessel.quantities.get("capacity", 0.0)
+    filling = {each.name: each.quantities.get("fill", 0.0) for each in liquids}
+    filling = {name: share for name, share in filling.items() if volumes[name] == share * capacity > 0.0}
+    if not filling:
+        return {}
     up = rotated(vessel.orientation, (0.0, 0.0, 1.0))
     upright = basin if np.allclose(up, UP) else _basin(container, vessel, up)
-    capacity = vessel.quantities.get("capacity", 0.0)
-    if upright is None or upright.capacity >= capacity:
+    if upright is None or FULL * upright.capacity >= capacity:
         return {}
-    filling = {each.name: each.quantities.get("fill", 0.0) for each in liquids}
-    return {
-        name: share * upright.capacity for name, share in filling.items() if volumes[name] == share * capacity > 0.0
-    }
+    return {name: share * upright.capacity for name, share in filling.items()}
 
 
 def _volume(liquid: Thing, place: Place, basins: Mapping[str, tuple[Placed, Basin]]) -> float:
