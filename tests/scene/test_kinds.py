@@ -462,3 +462,24 @@ def test_what_another_kind_breaks_may_be_breakable(tmp_path: Path) -> None:
     block = load(tmp_path, STICK + FLOOR + ":b a :Block ; :breakingForce 5.0 ; :on :floor .")
     with pytest.raises(KnowledgeError, match="b .Block. has a breakingForce, but .* what does: .*Shelled, Stick"):
         compose(block, (*known_kinds(), Sticks()), resting_height, 100)
+
+
+class Oiling(Kind):
+    """A kind that gives a block a friction which no other surface has."""
+
+    order = 90
+
+    def __init__(self, friction: float) -> None:
+        self._friction = friction
+
+    def start(self, state: Running) -> Sequence[Controller]:
+        state.set_friction(state.scene.index("block1"), self._friction)
+        return ()
+
+
+@pytest.mark.parametrize(("friction", "slides"), [(0.4, False), (0.123, True)])
+def test_a_kind_may_give_a_surface_any_friction(friction: float, slides: bool) -> None:
+    slope = ":table1 a :Table ; :pitch 15.0 . :block1 a :Block ; :on :table1 ; :pitch 15.0 . "
+    log = simulated(FLOOR + slope, "wait(0.4)", Oiling(friction))
+    path = log.poses[-1, log.index("block1"), :3] - log.poses[100, log.index("block1"), :3]
+    assert (float(np.linalg.norm(path)) > 0.05) == slides

@@ -10,7 +10,7 @@ import numpy as np
 
 from prolepsis.engine.pushing import Pushes
 from prolepsis.engine.reporting import check_attribute, check_happening
-from prolepsis.engine.world import DEBRIS_IMPEDANCE_RATIO, World, add_geom
+from prolepsis.engine.world import DEBRIS_IMPEDANCE_RATIO, World, add_geom, priority_of
 from prolepsis.geometry.rotations import compose_pose, inverse, relative_pose, rotated
 from prolepsis.geometry.shape import FloatArray, IntArray, Quaternion, Triple, quaternion, triple
 from prolepsis.log.happenings import Happening
@@ -134,7 +134,7 @@ class State:
             name = f"{thing.name}/{k}"
             kept, now = self.spec.geom(name), self.model.geom(name)
             kept.friction = [friction, *kept.friction[1:]]
-            kept.priority = self.world.ranks[friction]
+            kept.priority = priority_of(friction, self.world.grippiest)
             now.friction[0], now.priority[0] = friction, kept.priority
             for pair in self.spec.pairs:
                 if name in (pair.geomname1, pair.geomname2):
@@ -296,7 +296,7 @@ class State:
                         body,
                         things[i],
                         k,
-                        self.world.ranks,
+                        self.world.grippiest,
                         mass=things[i].mass / len(things[i].shape.geoms),
                         offset=(float(offset[0]), float(offset[1]), float(offset[2])),
                     )

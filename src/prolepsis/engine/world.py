@@ -31,6 +31,8 @@ ROLLING_FRICTION = 2.0e-4
 """Resistance of a smooth thing to rolling, as a length [m]; a tenth of a millimetre is usual for hard round things."""
 ROUND = ("sphere", "ellipsoid", "capsule", "cylinder")
 """Solids that roll."""
+SAME_FRICTION = 1.0e-6
+"""Frictions that differ by less than this count as the same [1]."""
 SPINNING_FRICTION = 1.0e-3
 """Resistance to spinning on the spot, as a length [m]."""
 MOST_MOVING, MOST_SOLIDS = 2000, 20_000
@@ -47,8 +49,8 @@ class World:
     """The ``mujoco.MjSpec`` at the start."""
     model: Any
     """The ``mujoco.MjModel`` at the start."""
-    ranks: Mapping[float, int]
-    """MuJoCo priority of each friction."""
+    grippiest: float
+    """Greatest friction of a surface at the start [1]."""
     posture: Mapping[str, float]
     """Coordinate at the start of each joint that is not at 0 there, by name [rad or m]."""
 
@@ -86,7 +88,7 @@ def compile_world(scene: Scene) -> World:
     # MuJoCo would silently start again after a divergence; the run must end as invalid instead.
     option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
     spec.worldbody.add_light(pos=[0, 0, 3], castshadow=True)
-    making = _Making(spec=spec, scene=scene, ranks=_friction_ranks(scene))
+    making = _Making(spec=spec, scene=scene, grippiest=_grippiest(scene))
     start: dict[str, float] = {}
     for kind in scene.kinds:
         start |= kind.attach(making)
@@ -99,7 +101,7 @@ def compile_world(scene: Scene) -> World:
         model = spec.compile()
     except ValueError as error:
         raise KnowledgeError(f"the world cannot be built: {' '.join(str(error).split())}") from None
-    world = World(scene=scene, spec=spec, model=model, ranks=making.ranks, posture=start)
+    world = World(scene=scene, spec=spec, model=model, grippiest=making.grippiest, posture=start)
     _refuse_overlaps(scene, model, world.start(model))
     return world
 
@@ -115,13 +117,14 @@ def _refuse_many(scene: Scene) -> None:
             )
 
 
-def _friction_ranks(scene: Scene) -> dict[float, int]:
-    """Return a MuJoCo priority for each friction: a contact is as slippery as its more slippery surface."""
-    surfaces = [thing for thing in scene.things if thing.shape.geoms]
-    values = {friction_of(thing) for thing in surfaces}
-    values |= {thing.quantities["frictionWhenWet"] for thing in surfaces if "frictionWhenWet" in thing.quantities}
-    values = sorted(values, reverse=True)
-    return {value: rank for rank, value in enumerate(values)}
+def _grippiest(scene: Scene) -> float:
+    """Return the greatest friction of a surface [1]."""
+    return max((friction_of(thing) for thing in scene.things if thing.shape.geoms), default=0.0)
+
+
+def priority_of(friction: float, grippiest: float) -> int:
+    """Return the MuJoCo priority of a surface: a contact is as slippery as its more slippery surface."""
+    return round((grippiest - friction) / SAME_FRICTION)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -130,8 +133,8 @@ class _Making:
 
     spec: Any
     scene: Scene
-    ranks: Mapping[float, int]
-    """MuJoCo priority of each friction."""
+    grippiest: float
+    """Greatest friction of a surface at the start [1]."""
 
     def add_body(self, thing: Thing) -> None:
         """Add one thing as a body with its geoms, on what it is mounted on."""
@@ -143,11 +146,11 @@ class _Making:
         if thing.mount.by == "nothing":
             body.add_freejoint(name=thing.name)
         for k, mass in enumerate(_masses(thing)):
-            add_geom(self.spec, body, thing, k, self.ranks, mass=mass)
+            add_geom(self.spec, body, thing, k, self.grippiest, mass=mass)
 
     def rule_contact(self, geom: Any, thing: Thing, *, rolls: bool) -> None:
         """Give a geom of a thing its friction and softness, and resistance to rolling where it rolls."""
-        _rule_contact(geom, thing, self.ranks, rolls=rolls)
+        _rule_contact(geom, thing, self.grippiest, rolls=rolls)
 
     def add_hinge(
         self, thing: str, position: Triple, axis: Triple, stiffness: float, damping: float, armature: float
@@ -194,7 +197,7 @@ def add_geom(
     body: Any,
     thing: Thing,
     number: int,
-    ranks: Mapping[float, int],
+    grippiest: float,
     *,
     mass: float,
     offset: Triple = (0.0, 0.0, 0.0),
@@ -216,19 +219,19 @@ def add_geom(
     if not thing.fixed:
         made.mass = mass
     rolls = geom.type in ROUND
-    _rule_contact(made, thing, ranks, rolls=rolls)
+    _rule_contact(made, thing, grippiest, rolls=rolls)
     made.rgba = list(thing.shape.colour)
     return made
 
 
-def _rule_contact(made: Any, thing: Thing, ranks: Mapping[float, int], *, rolls: bool) -> None:
+def _rule_contact(made: Any, thing: Thing, grippiest: float, *, rolls: bool) -> None:
     """Give a geom of a thing its friction and softness."""
     small = thing.emerges
     friction = friction_of(thing)
     rolling = thing.quantities.get("rollingFriction", ROLLING_FRICTION)
     made.friction = [friction, SPINNING_FRICTION, rolling]
     made.condim = 6 if rolls else 3 if small else 4
-    made.priority = ranks.get(friction, 0)
+    made.priority = priority_of(friction, grippiest)
     made.solref = list(SMALL_SOLREF if small else SMOOTH_SOLREF)
     made.solimp = list(SMALL_SOLIMP if small else SMOOTH_SOLIMP)
 
