@@ -118,7 +118,7 @@ def test_a_shell_that_is_whole_stays_as_stiff_when_another_falls_apart() -> None
     names = {thing.name: i for i, thing in enumerate(state.world.scene.things)}
     state.split("egg1", [[names[part.name]] for part in state.world.scene.parts("eggshell1")])
     assert np.allclose(stiffness_of(state, "egg2/0"), before)
-    state.join([])
+    state.join(None, [])
     assert np.allclose(stiffness_of(state, "egg2/0"), before)
 
 

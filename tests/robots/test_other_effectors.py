@@ -84,7 +84,6 @@ class Sucking:
 
     def act(self, dt: float) -> None:
         state, held = self._state, self.command > 0.0 and self._held >= 0
-        state.joints -= {pair for pair in state.joints if pair[0] == self._own}
         bodies: IntArray = np.array([self._body, self._held] if held else [], dtype=np.int64)
         wrenches = np.zeros((len(bodies), 6))
         if held:
@@ -92,8 +91,8 @@ class Sucking:
             pull = self.command * site.xmat.reshape(3, 3)[:, 0]
             for row, body, force in zip(wrenches, bodies, (pull, -pull), strict=True):
                 row[:] = [*force, *np.cross(site.xpos - state.data.xipos[body], force)]
-            state.joints.add((self._own, int(state.body_thing[self._held])))
             self.motion = 0
+        state.stick(self, [(self._own, int(state.body_thing[self._held]))] if held else [])
         state.push(self, bodies, wrenches)
 
     def measure(self, forces: list[tuple[int, int, int, float]]) -> None:

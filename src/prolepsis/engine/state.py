@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
+from prolepsis.engine.joining import Joining
 from prolepsis.engine.pushing import Pushes
 from prolepsis.engine.reporting import check_attribute, check_happening
 from prolepsis.engine.world import DEBRIS_IMPEDANCE_RATIO, World, add_geom, priority_of
@@ -23,10 +24,6 @@ from prolepsis.system.seeds import child_of
 
 FEW_CONTACTS = 16
 """Up to so many contacts, plain lists are faster than arrays."""
-JOINT = "joint:"
-"""Names of joints at points begin so."""
-JOINT_SOLREF = (0.002, 1.0)
-"""They give as little as the longest substep allows."""
 
 
 @dataclass(kw_only=True)
@@ -59,8 +56,8 @@ class State:
     """What controllers have changed: (thing, attribute) to its value."""
     particles: ParticleState | None = None
     """The particles of all liquids, if there are any."""
-    joints: set[tuple[int, int]] = field(default_factory=set[tuple[int, int]])
-    """What sticks to what now: indices of the holding and the held thing."""
+    joining: Joining = field(default_factory=Joining)
+    """What kinds hold together."""
     pushes: Pushes = field(default_factory=Pushes)
     """What kinds push now."""
     _body_of_geom: list[int] = field(default_factory=list[int])
@@ -314,27 +311,28 @@ class State:
             joint.qvel[3:] = rotated(inverse(quaternion(pose[3:])), triple(velocity[:3]))
         mujoco.mj_forward(self.model, self.data)
 
-    def join(self, joints: Sequence[PointJoint]) -> list[int]:
-        """Replace the joints at points between bodies, and return their numbers."""
-        for known in list(self.spec.equalities):
-            if known.name.startswith(JOINT):
-                self.spec.delete(known)
-        for k, joint in enumerate(joints):
-            self.spec.add_equality(
-                name=f"{JOINT}{k}",
-                type=mujoco.mjtEq.mjEQ_CONNECT,
-                name1=joint.first,
-                name2=joint.second,
-                objtype=mujoco.mjtObj.mjOBJ_BODY,
-                data=[0.0] * 12,
-                solref=list(JOINT_SOLREF),
-            )
+    def join(self, source: object, joints: Sequence[PointJoint]) -> list[int]:
+        """Replace the joints of a source, and return their numbers."""
+        self.joining.replace(source, self.spec, joints)
         self._rebuild()
-        numbers = [int(self.model.equality(f"{JOINT}{k}").id) for k in range(len(joints))]
+        numbers = self.joint_numbers(source)
         for number, joint in zip(numbers, joints, strict=True):
             self.move_joint(number, joint.point_on_first, joint.point_on_second)
         mujoco.mj_forward(self.model, self.data)
         return numbers
+
+    def joint_numbers(self, source: object) -> list[int]:
+        """Return the numbers of the joints of a source."""
+        return self.joining.numbers(source, self.model)
+
+    def stick(self, source: object, pairs: Iterable[tuple[int, int]]) -> None:
+        """Tell what sticks to what now, as far as a source holds it."""
+        self.joining.tell(source, frozenset(pairs))
+
+    @property
+    def joints(self) -> frozenset[tuple[int, int]]:
+        """What sticks to what now: indices of the holding and the held thing."""
+        return self.joining.pairs
 
     def move_joint(self, number: int, point_on_first: FloatArray, point_on_second: FloatArray) -> None:
         """Let a joint at a point hold other points of its bodies together, each in the frame of its body [m]."""
@@ -353,8 +351,7 @@ class State:
         """Compile the model anew from the spec; the rest of the state is carried over."""
         # Rebuilding starts the count of warnings again.
         self.warnings += int(self.data.warning.number.sum())
-        old = (self.model.equality(number) for number in range(self.model.neq))
-        places = {joint.name: joint.data.copy() for joint in old if joint.name.startswith(JOINT)}
+        points = self.joining.points(self.model)
         pairs = [self.model.pair(number) for number in range(self.model.npair)]
         contacts = {each.name: (each.solref.copy(), each.solimp.copy(), each.margin.copy()) for each in pairs}
         before = _body_names(self.model)
@@ -362,8 +359,8 @@ class State:
         self.pushes.bind(before, _body_names(self.model))
         # Compiling puts the second point where it would be in the first posture, which may be centimetres off.
         for known in self.spec.equalities:
-            if known.name in places:
-                self.model.equality(known.name).data[:] = places[known.name]
+            if known.name in points:
+                self.model.equality(known.name).data[:] = points[known.name]
         # The spec does not know what controllers have made of contacts.
         for known in self.spec.pairs:
             if known.name in contacts:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -68,8 +68,6 @@ class Running(Protocol):
     """Index of the thing that each MuJoCo body is, -1 for none, shape (nbody,)."""
     particles: ParticleState | None
     """All particles, if there are any."""
-    joints: set[tuple[int, int]]
-    """What sticks to what now: indices of the holding and the held thing."""
 
     @property
     def scene(self) -> Scene:
@@ -152,8 +150,21 @@ class Running(Protocol):
         """Replace one rigid body by several that move on as its parts did."""
         ...
 
-    def join(self, joints: Sequence[PointJoint]) -> list[int]:
-        """Hold bodies together at points, and return the numbers of the joints."""
+    @property
+    def joints(self) -> frozenset[tuple[int, int]]:
+        """What sticks to what now: indices of the holding and the held thing."""
+        ...
+
+    def stick(self, source: object, pairs: Iterable[tuple[int, int]]) -> None:
+        """Tell the log what sticks to what from now on as a source holds it: indices of the holding and the held."""
+        ...
+
+    def join(self, source: object, joints: Sequence[PointJoint]) -> list[int]:
+        """Hold bodies together at points, in place of what the same source held; return the numbers of the joints."""
+        ...
+
+    def joint_numbers(self, source: object) -> list[int]:
+        """Return the numbers of the joints of a source: others than before, once the model is rebuilt."""
         ...
 
     def move_joint(self, number: int, point_on_first: FloatArray, point_on_second: FloatArray) -> None:

@@ -76,6 +76,10 @@ class Adhesion(Controller):
         if self.holds:
             self._join(state)
 
+    def bind(self, state: Running) -> None:
+        """Look up its joints in a model that is new."""
+        self._numbers = state.joint_numbers(self)
+
     def act(self, state: Running) -> None:
         """Take apart what is pulled too hard; nothing breaks by that."""
         if not self.holds or not self._joined:
@@ -129,7 +133,7 @@ class Adhesion(Controller):
             first, second = (self._carrier(state, thing) for thing in (hold.holder, hold.held))
             place, other = self._places(state, hold)
             joints.append(PointJoint(first=first, second=second, point_on_first=place, point_on_second=other))
-        self._numbers = state.join(joints)
+        self._numbers = state.join(self, joints)
         for number, hold in zip(self._numbers, self._joined, strict=True):
             state.data.eq_active[number] = not hold.loose
         self._report(state)
@@ -137,7 +141,7 @@ class Adhesion(Controller):
     def _report(self, state: Running) -> None:
         """Tell the log what sticks to what."""
         pairs = {(int(state.carrier[hold.holder]), int(state.carrier[hold.held])) for hold in self.holds}
-        state.joints = {(holder, held) for holder, held in pairs if holder != held}
+        state.stick(self, ((holder, held) for holder, held in pairs if holder != held))
 
     def _places(self, state: Running, hold: AdhesiveJoint) -> tuple[FloatArray, FloatArray]:
         """Return the point of a hold in the frames of the two bodies [m]."""
