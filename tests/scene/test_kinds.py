@@ -166,6 +166,30 @@ def test_what_has_particles_of_its_own_is_seen_where_it_is() -> None:
     assert middle[-1, 2] < middle[0, 2] - 0.03
 
 
+class Loading(Kind):
+    """A kind that calls its channel as shells call one of theirs."""
+
+    channels = (Channel(name="load", doc="what it bears [N]"),)
+
+
+class Detaching(Kind):
+    """A kind that tells of other detachments than shells do."""
+
+    happenings = (HappeningType(name=DETACHMENT.name, things=("thing",)),)
+
+
+@pytest.mark.parametrize(
+    ("kind", "message"),
+    [
+        (Loading(), "(Loading|Shells): load is declared otherwise by (Shells|Loading); take another name"),
+        (Detaching(), "detachment is declared otherwise by"),
+    ],
+)
+def test_two_kinds_cannot_mean_two_things_by_one_name(tmp_path: Path, kind: Kind, message: str) -> None:
+    with pytest.raises(KnowledgeError, match=message):
+        compose(load(tmp_path, FLOOR), (*known_kinds(), kind), resting_height, 100)
+
+
 class Polishing(Kind):
     """A kind of what may be polished; tables are from the start."""
 

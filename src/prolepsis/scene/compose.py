@@ -14,10 +14,11 @@ from prolepsis.geometry.shape import IDENTITY, Shape, triple
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.knowledge.situation import MOST_INDIVIDUALS
 from prolepsis.log.domain import Domain
+from prolepsis.log.happenings import HappeningType
 from prolepsis.log.things import FIXED, FREE, Thing
 from prolepsis.scene.coherence import refuse_nonsense
 from prolepsis.scene.colours import colour_of
-from prolepsis.scene.kind import Draft, Individuals, Kind, Made, RestingHeight, Roles
+from prolepsis.scene.kind import Channel, Draft, Individuals, Kind, Made, RestingHeight, Roles
 from prolepsis.scene.scene import Pool, Scene
 from prolepsis.scene.shapes import EXTENTS, SHAPES, Extents
 from prolepsis.scene.shapes.holes import refuse_holes
@@ -106,10 +107,15 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
 
 
 def _refuse_misspelt(kb: KnowledgeBase, kinds: Sequence[Kind]) -> None:
-    """Refuse kinds that name what is not in the ontology."""
+    """Refuse kinds that name what is not in the ontology, or declare otherwise what another one declares."""
     known = kb.vocabulary
+    declared: dict[tuple[type, str], tuple[str, Channel | HappeningType]] = {}
     for kind in kinds:
         where = type(kind).__name__
+        for each in (*kind.channels, *kind.happenings):
+            other, same = declared.setdefault((type(each), each.name), (where, each))
+            if same != each:
+                raise KnowledgeError(f"{where}: {each.name} is declared otherwise by {other}; take another name")
         begins = [each.begins for each in kind.channels if each.begins is not None]
         claims = () if kind.claims is None else (kind.claims,)
         for name in (*kind.roles, *begins, *claims, *kind.quantities.values()):
