@@ -15,6 +15,7 @@ from prolepsis.robots.inverse import ArmKinematics, Found
 from prolepsis.scene.robot import Arm
 from prolepsis.scene.running import Running
 from prolepsis.system.mujoco import mujoco
+from prolepsis.system.seeds import scattered
 
 FINEST = 0.03
 """Two postures that are looked at for collisions differ by at most this much in each joint [rad]."""
@@ -248,7 +249,7 @@ def _starts(kinematics: ArmKinematics) -> list[FloatArray]:
     """Return postures from which a search may start: home, and others all over the ranges, always the same."""
     home = kinematics.home
     low, high = np.maximum(kinematics.low, home - np.pi), np.minimum(kinematics.high, home + np.pi)
-    shares = np.random.default_rng(0).uniform(-REACH, REACH, (SEARCHES, len(home)))
+    shares = scattered(SEARCHES, len(home), REACH)
     return [home, *(home + np.where(s > 0, s * (high - home), s * (home - low)) for s in shares)]
 
 
