@@ -4,7 +4,7 @@
     .venv/bin/python tools/digests.py --write            write it anew
     .venv/bin/python tools/digests.py dropped_egg pour_a only these
 
-A digest is of content, not of files: poses, contacts, particles, channels, detachments, actions and facts, with the
+A digest is of content, not of files: poses, contacts, particles, channels, happenings, actions and facts, with the
 names of things in the place of their indices, so that rooms, formats and the order of things may change. Numbers
 count to the last bit; other versions of the engine or another kind of processor give other digests.
 """
@@ -101,11 +101,12 @@ def digest_of_log(log: Log) -> dict[str, Any]:
         "carriers": _digest(part for i in order for part in (names[i], *_named(log.carrier[:, i], names))),
         "contacts": _rows(log.contacts, names, named=("a", "b")),
         "joints": _rows(log.joints, names, named=("a", "b")),
-        "detachments": _rows(log.detachments, names, named=("thing", "a", "b")),
+        "happenings": _happenings(log, names),
         "particles": _digest(
             [frames.tick, frames.position, frames.spacing, *_named(frames.holder, names), *kinds, *own]
         ),
         "channels": _digest(part for name in sorted(log.channels) for part in (name, log.channels[name])),
+        "arguments": _digest((str(a.term), a.start, sorted(a.arguments.items())) for a in log.actions),
         "actions": _digest((str(a.term), a.start, a.end, a.outcome, sorted(a.evidence.items())) for a in log.actions),
     }
 
@@ -131,6 +132,17 @@ def _rows(table: Any, names: list[str], named: tuple[str, ...]) -> str:
     columns = {name: getattr(table, name) for name in type(table).__dataclass_fields__}
     parts = [part for name in named for part in _named(columns[name], names)]
     return _digest([*parts, *(columns[name] for name in sorted(columns) if name not in named)])
+
+
+def _happenings(log: Log, names: list[str]) -> str:
+    parts: list[Any] = []
+    for type, each in sorted(log.happenings.items()):
+        parts += [type, each.tick]
+        for argument, index in sorted(each.things.items()):
+            parts += [argument, *_named(index, names)]
+        for number, column in sorted(each.numbers.items()):
+            parts += [number, column]
+    return _digest(parts)
 
 
 def _named(index: Any, names: list[str]) -> list[Any]:
