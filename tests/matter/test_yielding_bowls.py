@@ -12,7 +12,7 @@ from prolepsis.engine.state import State
 from prolepsis.engine.world import compile_world
 from prolepsis.fluents import recognize
 from prolepsis.log.log import Log
-from prolepsis.matter.walls.denting import Denting
+from prolepsis.matter.walls.kind import Denting
 from prolepsis.matter.walls.panels import resistance
 from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.errors import KnowledgeError
@@ -35,7 +35,7 @@ class Pushed:
         state = self.state
         state.model.opt.timestep = 2.5e-4
         state.data.joint("bowl1").qvel[:] = 0.0
-        resists = resistance(self.state.world.scene.thing("bowl1").quantities)
+        resists = resistance(self.state.world.scene.thing("bowl1"))
         joint = state.data.joint(self.panel.name)
         state.data.qfrc_applied[:] = 0.0
         state.data.qfrc_applied[state.model.joint(self.panel.name).dofadr[0]] = force * resists.lever
@@ -58,7 +58,7 @@ def test_a_paper_rim_bears_its_buckling_force_and_no_more() -> None:
 
 def test_a_clay_rim_bears_what_its_yield_stress_and_section_say() -> None:
     pushed = Pushed("ClayBowl")
-    resists = resistance(pushed.state.world.scene.thing("bowl1").quantities)
+    resists = resistance(pushed.state.world.scene.thing("bowl1"))
     weight_arm = 0.043 * 9.81 * 0.03  # a tenth of the wall, its middle some 3 cm outside the hinge
     assert pushed.gives_way_at() == pytest.approx((resists.moment - weight_arm) / resists.lever, rel=0.05)
     # Hoop at both sides of a panel of a tenth, by hand: 2 sin 18 deg x 30 kPa x 8 mm x arc x mean height.
@@ -67,7 +67,7 @@ def test_a_clay_rim_bears_what_its_yield_stress_and_section_say() -> None:
 
 def test_a_dent_in_clay_stays_and_what_was_elastic_springs_back() -> None:
     pushed = Pushed("ClayBowl")
-    resists = resistance(pushed.state.world.scene.thing("bowl1").quantities)
+    resists = resistance(pushed.state.world.scene.thing("bowl1"))
     force = way = 0.0
     while way < 0.01:
         force += 0.01

@@ -18,19 +18,19 @@ STEADY = 0.02
 @fluent("dented", "o")
 def dented(observation: Observation) -> Iterator[Fact]:
     """A part of the thing's wall has yielded, so that it stays out of place."""
-    yield from _gave_way(observation, "dented", "yieldStress")
+    yield from _gave_way(observation, "dented", "DentingBowl")
 
 
 @fluent("buckled", "o")
 def buckled(observation: Observation) -> Iterator[Fact]:
     """A part of the thing's thin wall has folded, so that it stays out of place."""
-    yield from _gave_way(observation, "buckled", "bucklingForce")
+    yield from _gave_way(observation, "buckled", "BucklingBowl")
 
 
-def _gave_way(observation: Observation, name: str, needed: str) -> Iterator[Fact]:
+def _gave_way(observation: Observation, name: str, role: str) -> Iterator[Fact]:
     for thing in observation.log.things:
         depth = observation.log.channels.get(f"{thing.name}.dent")
-        if depth is None or needed not in thing.quantities:
+        if depth is None or role not in thing.roles:
             continue
         for start, end in debounce(depth > NOTICEABLE_DENT, observation.dt, gap=STEADY, least=STEADY):
             evidence = {"depth": float(depth[start:end].max())}

@@ -13,11 +13,15 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from prolepsis.geometry import turned
 from prolepsis.geometry.shape import Geom, Shape, Triple
-from prolepsis.geometry.turned import bowl
+from prolepsis.log.things import Thing
 from prolepsis.scene.shapes.holes import refuse_holes
 from prolepsis.scene.shapes.vessel import SEGMENTS
 from prolepsis.terms.errors import KnowledgeError
+
+NEEDED = {"BucklingBowl": ("bucklingForce", "bucklingDisplacement"), "DentingBowl": ("yieldStress", "youngsModulus")}
+"""What must be known of how a wall gives way, by what it is."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -65,24 +69,26 @@ def panels(shape: Shape, q: Mapping[str, float]) -> tuple[PanelShape, ...]:
     return tuple(made)
 
 
-def resistance(q: Mapping[str, float]) -> Resistance:
-    """Return how each panel of a bowl's wall resists.
+def resistance(bowl: Thing) -> Resistance:
+    """Return how each panel of a yielding bowl's wall resists.
 
     Raises:
         KnowledgeError: If nothing is known of that.
     """
+    q = bowl.quantities
     radius, foot = _foot(q)
     along, up = q["radius"] - radius, q["height"] - foot
     lever = math.hypot(along, up)
-    if "bucklingForce" in q and "bucklingDisplacement" in q:
+    for role, needed in NEEDED.items():
+        if role in bowl.roles and (missing := [name for name in needed if name not in q]):
+            raise KnowledgeError(f"it is a {role}, but its {missing[0]} is not known")
+    if "BucklingBowl" in bowl.roles:
         moment = q["bucklingForce"] * lever
         return Resistance(lever=lever, moment=moment, stiffness=moment * lever / q["bucklingDisplacement"])
-    if "yieldStress" not in q or "youngsModulus" not in q:
-        raise KnowledgeError(
-            "its wall gives way, but neither bucklingForce and bucklingDisplacement nor yieldStress are known"
-        )
+    if "DentingBowl" not in bowl.roles:
+        raise KnowledgeError("its wall gives way, but neither its bucklingForce nor its yieldStress is known")
     stress, thickness, count = q["yieldStress"], q["thickness"], q["panelCount"]
-    wall = bowl(q).wall
+    wall = turned.bowl(q).wall
     rings = 50
     # Of a push towards the axis the lever is the height over the hinge.
     heights = [wall.at(wall.start + (wall.end - wall.start) * (k + 0.5) / rings)[0][1] - foot for k in range(rings)]
@@ -95,6 +101,6 @@ def resistance(q: Mapping[str, float]) -> Resistance:
 
 def _foot(q: Mapping[str, float]) -> tuple[float, float]:
     """Return radius and height of the middle of the wall where it leaves the foot [m]."""
-    wall = bowl(q).wall
+    wall = turned.bowl(q).wall
     inner, outer = wall.at(wall.start)
     return (inner[0] + outer[0]) / 2, (inner[1] + outer[1]) / 2

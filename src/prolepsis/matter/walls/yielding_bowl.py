@@ -32,7 +32,7 @@ def bowl_parts(bowl: Thing) -> Made:
     """
     q = bowl.quantities
     try:
-        parts, resists = panels(bowl.shape, q), resistance(q)
+        parts, resists = panels(bowl.shape, q), resistance(bowl)
     except KnowledgeError as error:
         raise KnowledgeError(f"{bowl.name} ({bowl.kind}): {error}") from None
     made = tuple(
