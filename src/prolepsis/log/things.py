@@ -54,7 +54,7 @@ class Thing:
     whole: str | None = None
     """The thing this is a part of, if any."""
     roles: frozenset[str] = frozenset()
-    """Classes that recognition and phenomena go by: ``Gripper``, ``Container``, ``Breakable``, ``Stuff``,
+    """Classes that recognition and kinds of matter go by: ``Gripper``, ``Container``, ``Breakable``, ``Stuff``,
     ``Piece`` (appears when its whole breaks), ``Floor`` ..."""
     mount: Mount = FREE
     """How it is held: a floor, a table or a wall is ``FIXED``."""

@@ -16,7 +16,7 @@ PERIOD = 20
 
 @dataclass(kw_only=True, slots=True)
 class ParticleState:
-    """P particles. None is ever added or taken away; phenomena change where they are and what holds them."""
+    """P particles. None is ever added or taken away; kinds of matter change where they are and what holds them."""
 
     position: FloatArray
     """World frame [m], shape (P, 3)."""
