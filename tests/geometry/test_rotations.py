@@ -58,7 +58,7 @@ def test_turns_about_an_axis_are_those_of_mujoco(_: int) -> None:
     mujoco.mju_axisAngle2Quat(expected, axis, 1e-4 * angle)
     after = rotations.multiply(expected, before)
     for sign in (1.0, -1.0):
-        found = rotations.small_turns(before[None], sign * after[None])
+        found = rotations.rotation_vectors(before[None], sign * after[None])
         assert found[0] == pytest.approx(1e-4 * angle * axis, abs=1e-12)
 
 

@@ -159,9 +159,9 @@ class _Motion:
     """First ticks of the blocks, shape (B,)."""
     turned: FloatArray
     """Rotation matrices at those, shape (B, n, 3, 3)."""
-    ways: FloatArray
+    travel: FloatArray
     """How far each frame gets within each block [m], shape (B, n)."""
-    turns: FloatArray
+    angles: FloatArray
     """How far it turns at most [rad], shape (B, n)."""
     reach: FloatArray
     """How far no solid of each thing is from its frame [m], infinity for a plane, shape (n,)."""
@@ -182,19 +182,19 @@ class _Motion:
             poses=poses,
             starts=starts,
             turned=matrices(poses[starts][:, :, 3:]),
-            ways=np.add.reduceat(np.concatenate([shift, still]), starts),
-            turns=np.pi * np.add.reduceat(np.concatenate([np.sqrt(chord), still]), starts),
+            travel=np.add.reduceat(np.concatenate([shift, still]), starts),
+            angles=np.pi * np.add.reduceat(np.concatenate([np.sqrt(chord), still]), starts),
             reach=reach,
         )
 
     def near(self, mover: int, obstacle: int) -> IntArray:
         """Return the blocks in which two things may meet."""
-        way = self.poses[self.starts, mover, :3] - self.poses[self.starts, obstacle, :3]
-        slack = self.reach[mover] + self.ways[:, mover] + self.ways[:, obstacle]
+        offset = self.poses[self.starts, mover, :3] - self.poses[self.starts, obstacle, :3]
+        slack = self.reach[mover] + self.travel[:, mover] + self.travel[:, obstacle]
         if np.isinf(self.reach[obstacle]):
             # A plane is level in the frame of its thing.
-            return np.flatnonzero(np.einsum("bc,bc->b", way, self.turned[:, obstacle, :, 2]) < slack)
-        return np.flatnonzero(np.einsum("bc,bc->b", way, way) < (slack + self.reach[obstacle]) ** 2)
+            return np.flatnonzero(np.einsum("bc,bc->b", offset, self.turned[:, obstacle, :, 2]) < slack)
+        return np.flatnonzero(np.einsum("bc,bc->b", offset, offset) < (slack + self.reach[obstacle]) ** 2)
 
     def close(
         self,
@@ -214,29 +214,31 @@ class _Motion:
             meet: Which may touch which, shape (S, W).
         """
         mover, obstacle = things
-        place, turned = _relative(
+        position, turned = _relative(
             self.poses[self.starts[blocks], mover, :3],
             self.turned[blocks, mover],
             self.poses[self.starts[blocks], obstacle, :3],
             self.turned[blocks, obstacle],
         )
-        ways = self.ways[blocks, mover] + self.ways[blocks, obstacle] + self.turns[blocks, mover] * self.reach[mover]
-        ways += self.turns[blocks, obstacle] * (np.linalg.norm(place, axis=1) + self.reach[mover] + ways)
-        middles = place + np.einsum("bij,sj->sbi", turned, np.array([each.points[0] for each in solids]))
+        travel = (
+            self.travel[blocks, mover] + self.travel[blocks, obstacle] + self.angles[blocks, mover] * self.reach[mover]
+        )
+        travel += self.angles[blocks, obstacle] * (np.linalg.norm(position, axis=1) + self.reach[mover] + travel)
+        middles = position + np.einsum("bij,sj->sbi", turned, np.array([each.points[0] for each in solids]))
         spread = np.array([each.spread for each in solids])
         centres, radius = np.array([each.middle for each in walls]), np.array([each.radius for each in walls])
         for s, own in enumerate(solids):
             apart = middles[s] - centres[:, None]
-            near = np.einsum("wbc,wbc->wb", apart, apart) < (radius[:, None] + spread[s] + ways) ** 2
+            near = np.einsum("wbc,wbc->wb", apart, apart) < (radius[:, None] + spread[s] + travel) ** 2
             near &= meet[s, :, None]
             for w in np.flatnonzero(near.any(axis=1)).tolist():
                 wall, some = walls[w], np.flatnonzero(near[w])
                 most = own.most(wall)
-                some = some[wall.distance(middles[s, some]) - own.spread - ways[some] < -most.min()]
+                some = some[wall.distance(middles[s, some]) - own.spread - travel[some] < -most.min()]
                 if len(some):
-                    there = place[some][:, None] + own.points @ turned[some].transpose(0, 2, 1)
+                    there = position[some][:, None] + own.points @ turned[some].transpose(0, 2, 1)
                     gaps = wall.distance(there.reshape(-1, 3)).reshape(len(some), -1)
-                    some = some[(gaps - ways[some, None] < -most).any(axis=1)]
+                    some = some[(gaps - travel[some, None] < -most).any(axis=1)]
                 if len(some):
                     yield own, wall, blocks[some]
 
@@ -258,27 +260,29 @@ class _Motion:
     def _paths(self, things: tuple[int, int], points: FloatArray, ticks: IntArray) -> FloatArray:
         """Return where points of one thing are in the frame of the other, shape (ticks, points, 3)."""
         own, other = (self.poses[ticks, thing] for thing in things)
-        place, turned = _relative(own[:, :3], matrices(own[:, 3:]), other[:, :3], matrices(other[:, 3:]))
-        return place[:, None] + points @ turned.transpose(0, 2, 1)
+        position, turned = _relative(own[:, :3], matrices(own[:, 3:]), other[:, :3], matrices(other[:, 3:]))
+        return position[:, None] + points @ turned.transpose(0, 2, 1)
 
 
 def _relative(
-    place: FloatArray, turned: FloatArray, origin: FloatArray, frame: FloatArray
+    position: FloatArray, turned: FloatArray, origin: FloatArray, frame: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return places, shape (N, 3), and rotations, shape (N, 3, 3), in frames that are given likewise."""
+    """Return positions, shape (N, 3), and rotations, shape (N, 3, 3), in frames that are given likewise."""
     back = frame.transpose(0, 2, 1)
-    return (back @ (place - origin)[:, :, None])[:, :, 0], back @ turned
+    return (back @ (position - origin)[:, :, None])[:, :, 0], back @ turned
 
 
 def _deepest(wall: _Followed, begin: FloatArray, end: FloatArray) -> FloatArray:
     """Return the least signed distance on each of some lines [m], shape (N,): of a convex solid it is convex."""
     low, high = np.zeros(len(begin)), np.ones(len(begin))
-    way = end - begin
+    displacement = end - begin
     for _ in range(THIRDS):
         left, right = low + (high - low) / 3, high - (high - low) / 3
-        nearer = wall.distance(begin + left[:, None] * way) < wall.distance(begin + right[:, None] * way)
+        nearer = wall.distance(begin + left[:, None] * displacement) < wall.distance(
+            begin + right[:, None] * displacement
+        )
         high, low = np.where(nearer, right, high), np.where(nearer, low, left)
-    return wall.distance(begin + ((low + high) / 2)[:, None] * way)
+    return wall.distance(begin + ((low + high) / 2)[:, None] * displacement)
 
 
 def _from_planes(planes: FloatArray, solid: Solid, points: FloatArray) -> FloatArray:

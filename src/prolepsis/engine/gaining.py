@@ -230,8 +230,8 @@ class _Run:
             when = first + int(wet[:, thing].argmax())
             height = -float(self.poses[when, thing, :3] @ self.gravity)
             given += TWICE * max(_head(self.around.particles, when, self.gravity, self.dt) - height, 0.0)
-        ways = np.ptp(self.poses[first:until, :, :3], axis=0).max(axis=1)
-        if any(each != thing and each in solid and ways[each] > MOVES for each in soaked):
+        travel = np.ptp(self.poses[first:until, :, :3], axis=0).max(axis=1)
+        if any(each != thing and each in solid and travel[each] > MOVES for each in soaked):
             given += _loss(self.around.particles, first, until, self.gravity, self.dt) / own
         return given
 
@@ -290,21 +290,21 @@ def _joined(thing: int, pairs: IntArray) -> set[int]:
 def _head(particles: Particles, tick: int, gravity: FloatArray, dt: float) -> float:
     """Return the greatest energy over mass of flowing particles up to a tick [J/kg]."""
     last = max(int(np.searchsorted(particles.tick, tick, side="right")), 1)
-    place = particles.position[:last].astype(np.float64)
-    energy = -(place @ gravity)
+    position = particles.position[:last].astype(np.float64)
+    energy = -(position @ gravity)
     if last > 1:
         time = np.diff(particles.tick[:last]) * dt
-        energy[1:] += 0.5 * np.square(np.diff(place, axis=0) / time[:, None, None]).sum(axis=2)
+        energy[1:] += 0.5 * np.square(np.diff(position, axis=0) / time[:, None, None]).sum(axis=2)
     return float(np.where(particles.holder[:last] == FREE, energy, -np.inf).max())
 
 
 def _loss(particles: Particles, begin: int, end: int, gravity: FloatArray, dt: float) -> float:
     """Return how much energy liquids lost at most in some ticks [J]."""
     first, last = np.searchsorted(particles.tick, (begin, end))
-    place = particles.position[max(first - 1, 0) : last + 1].astype(np.float64)
+    position = particles.position[max(first - 1, 0) : last + 1].astype(np.float64)
     time = np.diff(particles.tick[max(first - 1, 0) : last + 1]) * dt
-    energy = -((place[1:] + place[:-1]) / 2 @ gravity)
-    energy += 0.5 * np.square(np.diff(place, axis=0) / time[:, None, None]).sum(axis=2)
+    energy = -((position[1:] + position[:-1]) / 2 @ gravity)
+    energy += 0.5 * np.square(np.diff(position, axis=0) / time[:, None, None]).sum(axis=2)
     total = energy @ particles.mass
     return float((np.maximum.accumulate(total) - total).max(initial=0.0))
 

@@ -166,10 +166,10 @@ class Recorder:
             if not len(ticks):
                 continue
             position = np.stack([self.poses[t][1] for t in ticks])
-            turn = np.stack([self.poses[t][2] for t in ticks])
+            orientation = np.stack([self.poses[t][2] for t in ticks])
             carried = version.carrier >= 0
             body = version.body_of[version.carrier]
-            outer_p, outer_q = position[:, body], turn[:, body]
+            outer_p, outer_q = position[:, body], orientation[:, body]
             inner_p, inner_q = version.offsets[:, :3], version.offsets[:, 3:]
             block = np.concatenate([outer_p + rotate(outer_q, inner_p), multiply(outer_q, inner_q)], axis=2)
             # What is no body of its own keeps the pose at which it was last seen.
@@ -269,7 +269,7 @@ class Frames:
         if state.particles is None or tick % PERIOD:
             return
         self.ticks.append(tick)
-        self.positions.append(rounded(_places(state, state.particles)))
+        self.positions.append(rounded(_positions(state, state.particles)))
         self.holders.append(state.particles.holder.copy())
         columns, count = state.particles.columns, len(state.particles.mass)
         for name, column in columns.items():
@@ -299,11 +299,11 @@ class Frames:
         )
 
 
-def _places(state: State, particles: ParticleState) -> FloatArray:
+def _positions(state: State, particles: ParticleState) -> FloatArray:
     """Return where all particles are by now [m], shape (P, 3): those that are held are where what holds them is."""
-    places = particles.now()
+    positions = particles.now()
     holders: list[int] = np.unique(particles.holder[particles.holder >= 0]).tolist()
     for holder in holders:
         pose, held = state.pose(state.scene.things[holder].name), particles.holder == holder
-        places[held] = pose[:3] + particles.home[held] @ matrix(pose[3:]).T
-    return places
+        positions[held] = pose[:3] + particles.home[held] @ matrix(pose[3:]).T
+    return positions

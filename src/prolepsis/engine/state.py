@@ -268,11 +268,11 @@ class State:
         """
         things = self.scene.things
         old = self.data.body(body_name)
-        origin, turn = old.xpos.copy(), old.xquat.copy()
+        origin, orientation = old.xpos.copy(), old.xquat.copy()
         velocity = self._twist(body_name)
         old_thing = int(self.body_thing[self.model.body(body_name).id])
         groups = fragments
-        poses = {i: compose_pose(np.array([*origin, *turn]), self.offsets[i]) for group in groups for i in group}
+        poses = {i: compose_pose(np.array([*origin, *orientation]), self.offsets[i]) for group in groups for i in group}
         for pair in list(self.spec.pairs):
             if body_name in (pair.geomname1.rsplit("/", 1)[0], pair.geomname2.rsplit("/", 1)[0]):
                 self.spec.delete(pair)

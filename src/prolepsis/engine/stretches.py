@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.geometry.rotations import rotate, rotate_back, small_turns
+from prolepsis.geometry.rotations import rotate, rotate_back, rotation_vectors
 from prolepsis.geometry.shape import BoolArray, FloatArray, Geom, IntArray
 from prolepsis.log.things import Thing
 from prolepsis.system.mujoco import mujoco
@@ -63,7 +63,7 @@ class Movers:
         """
         middle = poses[:, :3] + rotate(poses[:, 3:], self.centre[thing])
         speed = np.diff(middle, axis=0) / dt
-        spin = small_turns(poses[:-1, 3:], poses[1:, 3:]) / dt
+        spin = rotation_vectors(poses[:-1, 3:], poses[1:, 3:]) / dt
         own = rotate_back(self.axes[thing], rotate_back(poses[:-1, 3:], spin))
         turning = 0.5 * np.square(own) @ self.inertia[thing]
         return 0.5 * np.square(speed).sum(axis=1) + turning - (middle[1:] + middle[:-1]) @ gravity / 2

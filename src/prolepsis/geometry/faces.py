@@ -208,12 +208,12 @@ def _profile(
                 end = 0.0 if along < 0.0 else length
                 nearest_r, nearest_z = r - ar - end * er, z - az - end * ez
         if beyond == 0.0 and 0.0 < signed < reach and count < found.shape[0]:
-            place = count
-            while place > 0 and found[place - 1, 0] > signed:
+            slot = count
+            while slot > 0 and found[slot - 1, 0] > signed:
                 for c in range(4):
-                    found[place, c] = found[place - 1, c]
-                place -= 1
-            found[place, 0], found[place, 1], found[place, 2], found[place, 3] = signed, ez * cx, ez * cy, -er
+                    found[slot, c] = found[slot - 1, c]
+                slot -= 1
+            found[slot, 0], found[slot, 1], found[slot, 2], found[slot, 3] = signed, ez * cx, ez * cy, -er
             count += 1
     nearest = math.sqrt(nearest)
     if corner and nearest > 0.0:
@@ -224,9 +224,9 @@ def _profile(
             nearest_r, nearest_z = -nearest_r, -nearest_z
     if count == 0 or nearest < found[0, 0] - 1e-9:
         count = min(count, found.shape[0] - 1)
-        for place in range(count, 0, -1):
+        for slot in range(count, 0, -1):
             for c in range(4):
-                found[place, c] = found[place - 1, c]
+                found[slot, c] = found[slot - 1, c]
         found[0, 0], found[0, 1], found[0, 2], found[0, 3] = nearest, nearest_r * cx, nearest_r * cy, nearest_z
         count += 1
     return count

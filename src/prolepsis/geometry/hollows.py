@@ -96,7 +96,7 @@ class Space:
     """Signed distance of each node to the solids [m], shape (nx, ny, nz)."""
     box: IntArray
     """First node and the one after the last, along each axis, of the box round the solids, shape (2, 3)."""
-    _ways: dict[float, tuple[BoolArray, IntArray, FloatArray]] = field(
+    _free_by_clearance: dict[float, tuple[BoolArray, IntArray, FloatArray]] = field(
         default_factory=dict[float, tuple[BoolArray, IntArray, FloatArray]]
     )
 
@@ -109,7 +109,7 @@ class Space:
             up: Unit vector against gravity, shape (3,).
             clearance: Distance to all matter [m] that a way out needs. Rims are as high as they are, though.
         """
-        free, near, foot = self._ways_with(max(clearance, BLOCKED * self.step))
+        free, near, foot = self._free_nodes(max(clearance, BLOCKED * self.step))
         followed, across = self._box(BEYOND), self.step * up
         base = float(self.origin @ up) + float(across @ [each.start for each in followed])
         found = np.full(self.distance.shape, -np.inf)
@@ -177,7 +177,7 @@ class Space:
         """Return the space in and round other solids within the same bounds."""
         shape: IntArray = np.array(self.distance.shape)
         distance = node_distances(solids, self.origin, self.step, shape)
-        return replace(self, solids=solids, distance=distance, _ways={})
+        return replace(self, solids=solids, distance=distance, _free_by_clearance={})
 
     def heights(self, up: FloatArray) -> FloatArray:
         """Return the height of each node [m], shape (nx, ny, nz)."""
@@ -190,9 +190,9 @@ class Space:
         (a, b, c), (d, e, f) = (self.box + [[-beyond], [beyond]]).tolist()
         return slice(a, d), slice(b, e), slice(c, f)
 
-    def _ways_with(self, clearance: float) -> tuple[BoolArray, IntArray, FloatArray]:
-        """Return the nodes that are clear of matter, those next to it, and the ways to there from its nearest point."""
-        if clearance not in self._ways:
+    def _free_nodes(self, clearance: float) -> tuple[BoolArray, IntArray, FloatArray]:
+        """Return the nodes that are clear of matter, those next to it, and how they lie from its nearest point."""
+        if clearance not in self._free_by_clearance:
             followed, reach = self._box(BEYOND), clearance + BESIDE * self.step
             distance = self.distance[followed]
             # What is beyond the solids' box is outside, however near to them.
@@ -203,8 +203,8 @@ class Space:
             first = self.origin + self.step * (self.box[0] - BEYOND)
             faces = nearest_faces(self.solids, first + self.step * near, reach + self.step)
             foot = np.where(np.isfinite(faces[:, :1]), faces[:, :1], 0.0) * faces[:, 1:]
-            self._ways[clearance] = free, np.array(np.ravel_multi_index(tuple(near.T), free.shape)), foot
-        return self._ways[clearance]
+            self._free_by_clearance[clearance] = free, np.array(np.ravel_multi_index(tuple(near.T), free.shape)), foot
+        return self._free_by_clearance[clearance]
 
     def _with_shore(self, chosen: BoolArray, pool: FloatArray) -> BoolArray:
         """Return the nodes of a pool and those between it and the walls, but none behind a thin wall."""
@@ -268,8 +268,8 @@ def _at(values: npt.NDArray[Any], nodes: FloatArray, *, outside: float) -> npt.N
     """Return values at nodes, shape (N, 3), and another outside of the grid, shape (N,)."""
     shape = np.array(values.shape)
     within = np.all((nodes >= 0) & (nodes < shape), axis=1)
-    place = np.where(within[:, None], nodes, 0).astype(np.int64)
-    return np.where(within, values[tuple(place.T)], outside)
+    index = np.where(within[:, None], nodes, 0).astype(np.int64)
+    return np.where(within, values[tuple(index.T)], outside)
 
 
 def _labelled(mask: BoolArray) -> tuple[IntArray, int]:

@@ -179,7 +179,7 @@ def multiply(first: FloatArray, second: FloatArray) -> FloatArray:
     )
 
 
-def small_turns(before: FloatArray, after: FloatArray) -> FloatArray:
+def rotation_vectors(before: FloatArray, after: FloatArray) -> FloatArray:
     """Return the rotation vectors from unit quaternions to others [rad], shape (..., 3): exact when small."""
     change = multiply(after, inverses(before))
     # q and -q are the same rotation; none has the sign 0.
@@ -195,9 +195,9 @@ def angle_between(before: FloatArray, after: FloatArray) -> FloatArray:
 
 def compose_pose(outer: FloatArray, inner: FloatArray) -> FloatArray:
     """Return the world pose of ``inner``, given in the frame ``outer``; both are (7,)."""
-    x, y, z, *turn = outer.tolist()
+    x, y, z, *rotation = outer.tolist()
     a, b, c, *own = inner.tolist()
-    orientation = (turn[0], turn[1], turn[2], turn[3])
+    orientation = (rotation[0], rotation[1], rotation[2], rotation[3])
     p, q, r = _rotated(orientation, (a, b, c))
     w, i, j, k = product(orientation, (own[0], own[1], own[2], own[3]))
     length = math.sqrt(w * w + i * i + j * j + k * k)

@@ -68,8 +68,8 @@ class Solid:
         low, high = self.corners.min(axis=0), self.corners.max(axis=0)
         centre, half = (low + high) / 2, (high - low) / 2
         if self.type in ("mesh", "box"):
-            placed = self.corners @ self.rotation.T + self.position
-            return placed.min(axis=0), placed.max(axis=0)
+            points = self.corners @ self.rotation.T + self.position
+            return points.min(axis=0), points.max(axis=0)
         reach = np.abs(self.rotation) @ half
         middle = self.position + self.rotation @ centre
         return middle - reach, middle + reach

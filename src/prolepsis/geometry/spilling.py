@@ -54,8 +54,8 @@ def pool_levels(
     before = np.empty(len(levels), dtype=np.int32)
     for n in range(len(kinds)):
         if kinds[n] == TODO:
-            for way in beside:
-                m = n + way
+            for offset in beside:
+                m = n + offset
                 if kinds[m] == DONE and levels[m] < np.inf:
                     kinds[m] = OUT
                     rank = int((levels[m] - lowest) / width)
@@ -78,8 +78,8 @@ def pool_levels(
                 n = filled[first]
                 first += 1
                 bottom = min(bottom, _height(n, base, across, ny, nz))
-                for way in beside:
-                    m = n + way
+                for offset in beside:
+                    m = n + offset
                     if m < 0 or m >= len(kinds) or kinds[m] != TODO:
                         continue
                     kinds[m] = DONE

@@ -25,7 +25,7 @@ HEAD = "log.json"
 _EXACTLY = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
 _TICKS, _POSES, _CONTACTS = "ticks.parquet", "poses.parquet", "contacts.parquet"
 _JOINTS, _HAPPENINGS = "joints.parquet", "happenings_{}.parquet"
-_FRAMES, _KINDS, _PLACES = "particle_frames.parquet", "particle_kinds.parquet", "particles.parquet"
+_FRAMES, _KINDS, _POSITIONS = "particle_frames.parquet", "particle_kinds.parquet", "particles.parquet"
 _OWN = "particle_columns.parquet"
 
 
@@ -129,8 +129,8 @@ def _tables_of(log: Log) -> Iterator[tuple[str, tables.Columns, tables.Kinds]]:
     if _has_particles(log):
         yield _FRAMES, particle_tables.frame_columns(log.particles), particle_tables.FRAMES
         yield _KINDS, particle_tables.kind_columns(log.particles), particle_tables.KINDS
-        places = particle_tables.position_columns(log.particles)
-        yield _PLACES, places, particle_tables.position_kinds(places)
+        positions = particle_tables.position_columns(log.particles)
+        yield _POSITIONS, positions, particle_tables.position_kinds(positions)
         if log.particles.columns:
             own = particle_tables.own_columns(log.particles)
             yield _OWN, own, dict.fromkeys(own, "float")
@@ -150,7 +150,7 @@ def read_log_files(path: Path) -> Log:
             check_columns(f"{type}s", (*each.things, *each.numbers))
         check_columns("particles", head.particles.columns if head.particles else ())
         reported = [_HAPPENINGS.format(type) for type in head.happenings]
-        wet = (_FRAMES, _KINDS, _PLACES, *((_OWN,) if head.particles.columns else ())) if head.particles else ()
+        wet = (_FRAMES, _KINDS, _POSITIONS, *((_OWN,) if head.particles.columns else ())) if head.particles else ()
         names = (_TICKS, _POSES, _CONTACTS, _JOINTS, *reported, *wet)
         untold = sorted({each.name for each in path.glob("*.parquet")} - {*names})
         if untold:
@@ -181,8 +181,8 @@ def read_log_files(path: Path) -> Log:
         raise LogError(f"{path}: memory ran short while its log was read; it needs more than there is") from None
     except ValidationError as error:
         problem = error.errors(include_url=False)[0]
-        place = "/".join(str(key) for key in problem["loc"])
-        raise LogError(f"{path}: its log is malformed: {HEAD}: {brief(place)}: {brief(problem['msg'])}") from None
+        location = "/".join(str(key) for key in problem["loc"])
+        raise LogError(f"{path}: its log is malformed: {HEAD}: {brief(location)}: {brief(problem['msg'])}") from None
     except (KeyError, ValueError, InputError) as error:
         if isinstance(error, LogError):
             raise
@@ -204,10 +204,10 @@ def _particles(head: _Particles | None, path: Path, thing_count: int, tick_count
         return Particles()
     frames = tables.read_table(path / _FRAMES, particle_tables.FRAMES)
     kinds = tables.read_table(path / _KINDS, particle_tables.KINDS)
-    places = tables.read_table(path / _PLACES, particle_tables.WHOLE_PLACES, particle_tables.FINE_PLACES)
+    positions = tables.read_table(path / _POSITIONS, particle_tables.WHOLE_POSITIONS, particle_tables.FINE_POSITIONS)
     own = tables.read_table(path / _OWN, dict.fromkeys(head.columns, "float")) if head.columns else {}
     return particle_tables.particles_from(
-        frames, kinds, places, own, spacing=head.spacing, thing_count=thing_count, tick_count=tick_count
+        frames, kinds, positions, own, spacing=head.spacing, thing_count=thing_count, tick_count=tick_count
     )
 
 

@@ -27,8 +27,8 @@ _WHOLE_AXES = tuple(f"{axis}_in_10_um" for axis in _AXES)
 FRAMES: Mapping[str, str] = {"tick": "int64"}
 KINDS: Mapping[str, str] = {"stuff": "int64", "mass": "double", "volume": "double"}
 _KEYS = {"particle": "int64", "holder": "int16"}
-WHOLE_PLACES: Mapping[str, str] = {**_KEYS, **dict.fromkeys(_WHOLE_AXES, "int32")}
-FINE_PLACES: Mapping[str, str] = {**_KEYS, **dict.fromkeys(_AXES, "float")}
+WHOLE_POSITIONS: Mapping[str, str] = {**_KEYS, **dict.fromkeys(_WHOLE_AXES, "int32")}
+FINE_POSITIONS: Mapping[str, str] = {**_KEYS, **dict.fromkeys(_AXES, "float")}
 """What the columns of the tables consist of, as ``log_tables`` has it."""
 
 
@@ -61,19 +61,19 @@ def position_columns(particles: Particles) -> Mapping[str, Column]:
 
 
 def own_columns(particles: Particles) -> Mapping[str, Column]:
-    """Return what kinds of matter know beside as long columns, in the order of ``place_columns``."""
+    """Return what kinds of matter know beside as long columns, in the order of ``position_columns``."""
     return {name: column.T.reshape(-1) for name, column in sorted(particles.columns.items())}
 
 
 def position_kinds(columns: Mapping[str, Column]) -> Mapping[str, str]:
-    """Return what the columns of ``place_columns`` consist of."""
-    return WHOLE_PLACES if _WHOLE_AXES[0] in columns else FINE_PLACES
+    """Return what the columns of ``position_columns`` consist of."""
+    return WHOLE_POSITIONS if _WHOLE_AXES[0] in columns else FINE_POSITIONS
 
 
 def particles_from(
     frames: Mapping[str, Column],
     kinds: Mapping[str, Column],
-    places: Mapping[str, Column],
+    positions: Mapping[str, Column],
     own: Mapping[str, Column],
     *,
     spacing: float,
@@ -87,16 +87,16 @@ def particles_from(
     """
     tick, stuff = frames["tick"], kinds["stuff"]
     shape = len(stuff), len(tick)
-    check_rows("particles", "particle", places["particle"], *shape)
+    check_rows("particles", "particle", positions["particle"], *shape)
     for name, column in own.items():
-        if len(column) != len(places["particle"]):
-            raise ValueError(f"particles: {name} has {len(column)} rows, their places {len(places['particle'])}")
-    if _WHOLE_AXES[0] in places:
-        whole = np.stack([places[axis] for axis in _WHOLE_AXES], axis=-1)
+        if len(column) != len(positions["particle"]):
+            raise ValueError(f"particles: {name} has {len(column)} rows, their places {len(positions['particle'])}")
+    if _WHOLE_AXES[0] in positions:
+        whole = np.stack([positions[axis] for axis in _WHOLE_AXES], axis=-1)
         by_particle = (whole * STEP).astype(np.float32)
     else:
-        by_particle = np.stack([places[axis] for axis in _AXES], axis=-1).astype(np.float32)
-    holder = places["holder"].reshape(shape)
+        by_particle = np.stack([positions[axis] for axis in _AXES], axis=-1).astype(np.float32)
+    holder = positions["holder"].reshape(shape)
     if len(tick) and (tick[0] < 0 or tick[-1] >= tick_count or (np.diff(tick) <= 0).any()):
         raise ValueError("the frames of the particles are not at ascending ticks of the log")
     if len(stuff) and not (stuff.min() >= 0 and stuff.max() < thing_count):

@@ -97,7 +97,7 @@ def refuse_long_run(things: int, ticks: int, particles: int, frames: int) -> Non
     Raises:
         InputError: If it is too long for so many things and particles.
     """
-    size = things * ticks * _bytes_of(POSES) + particles * frames * _bytes_of(particle_tables.WHOLE_PLACES)
+    size = things * ticks * _bytes_of(POSES) + particles * frames * _bytes_of(particle_tables.WHOLE_POSITIONS)
     if size > MOST_BYTES:
         raise InputError(
             f"the log could not be saved: {ticks:,} ticks of {things} things and {frames:,} frames of {particles:,}"

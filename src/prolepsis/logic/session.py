@@ -267,9 +267,9 @@ def _check_question(goal: str, limit: object, time_limit: float) -> None:
         raise GoalError(f"time_limit: a number of seconds above 0 and at most {LONGEST:g}, not {brief(time_limit)}")
     if len(goal) > LONGEST_GOAL:
         raise GoalError(f"the goal has {len(goal):,} characters; at most {LONGEST_GOAL:,} are read")
-    for place, character in enumerate(goal, start=1):
+    for column, character in enumerate(goal, start=1):
         if character == "\0" or "\ud800" <= character <= "\udfff":
-            raise GoalError(f"syntax error at column {place}: no character of a text: {character!r}")
+            raise GoalError(f"syntax error at column {column}: no character of a text: {character!r}")
 
 
 _NUMBER = re.compile(r"-?[0-9]{1,18}(\.[0-9]+)?")

@@ -125,9 +125,9 @@ class Stage:
 
     def _distance(self, low: FloatArray, high: FloatArray, azimuth: float, elevation: float) -> float:
         """Return from how far [m] the box from ``low`` to ``high`` just fills the picture."""
-        turn, tilt = np.radians(azimuth), np.radians(elevation)
-        forward = np.array([np.cos(tilt) * np.cos(turn), np.cos(tilt) * np.sin(turn), np.sin(tilt)])
-        right = np.array([np.sin(turn), -np.cos(turn), 0.0])
+        yaw, tilt = np.radians(azimuth), np.radians(elevation)
+        forward = np.array([np.cos(tilt) * np.cos(yaw), np.cos(tilt) * np.sin(yaw), np.sin(tilt)])
+        right = np.array([np.sin(yaw), -np.cos(yaw), 0.0])
         signs = np.stack(np.meshgrid([-1, 1], [-1, 1], [-1, 1]), axis=-1).reshape(8, 3)
         edges = signs * (high - low) / 2
         half = np.tan(np.radians(VIEW_ANGLE / 2))
@@ -137,7 +137,7 @@ class Stage:
 
     def _bounds(self, ticks: list[int]) -> tuple[FloatArray, FloatArray]:
         """Return the lower and upper corner of what moves [m]; a few far splinters are left out."""
-        places: list[FloatArray] = []
+        positions: list[FloatArray] = []
         bits: list[FloatArray] = []
         for i, thing in enumerate(self.log.things):
             seen = [tick for tick in ticks if self.visible(tick)[i]]
@@ -147,15 +147,15 @@ class Stage:
             vessel = self._droplets.present and self._is_vessel(i)
             if float(np.ptp(path, axis=0).max()) > MOVED or self._appears[i] or vessel:
                 reached = corners(thing, self.log.poses[seen, i])
-                (bits if self._appears[i] else places).append(reached)
+                (bits if self._appears[i] else positions).append(reached)
         bits.extend(self._droplets.at_large(ticks))
-        if not places and not bits:
+        if not positions and not bits:
             shown = [i for i, thing in enumerate(self.log.things) if thing.shape.geoms and not thing.fixed]
             path = self.log.poses[0, shown or [0], :3]
-            places = [path - 0.1, path + 0.1]
+            positions = [path - 0.1, path + 0.1]
         ends = [
             np.percentile(np.concatenate(group), (cut, 100.0 - cut), axis=0)
-            for group, cut in ((places, 1.0), (bits, 15.0))
+            for group, cut in ((positions, 1.0), (bits, 15.0))
             if group
         ]
         return np.min(ends, axis=(0, 1)), np.max(ends, axis=(0, 1))

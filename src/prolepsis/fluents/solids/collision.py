@@ -12,7 +12,7 @@ from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event
 from prolepsis.fluents.solids.contact import is_stuff, pair_names
 from prolepsis.fluents.solids.touch import Touch, touches
-from prolepsis.geometry.rotations import cross, small_turns
+from prolepsis.geometry.rotations import cross, rotation_vectors
 from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.log.timeline import Fact
 
@@ -87,7 +87,7 @@ def closing_speeds(observation: Observation) -> FloatArray:
 def _point_velocity(observation: Observation, thing: IntArray, tick: IntArray, point: FloatArray) -> FloatArray:
     quaternions = observation.log.poses[:, :, 3:]
     now, later = quaternions[tick, thing], quaternions[tick + 1, thing]
-    spin = small_turns(now, later) / observation.dt
+    spin = rotation_vectors(now, later) / observation.dt
     arm = point - observation.of(centres)[thing, tick]
     return observation.of(velocities)[thing, tick] + cross(spin, arm)
 

@@ -57,14 +57,14 @@ def confine(allowed: Mapping[str, int]) -> None:
     rules = _checked(libc().syscall(CREATE, attributes, ctypes.c_size_t(len(attributes)), 0))
     for path, rights in allowed.items():
         try:
-            place = os.open(path, os.O_PATH | os.O_CLOEXEC)
+            descriptor = os.open(path, os.O_PATH | os.O_CLOEXEC)
         except OSError:
             continue
         if not os.path.isdir(path):
             rights &= OF_FILES
-        rule = struct.pack("=Qi", rights & files, place)
+        rule = struct.pack("=Qi", rights & files, descriptor)
         _checked(libc().syscall(ADD_RULE, rules, PATH_BENEATH, rule, 0))
-        os.close(place)
+        os.close(descriptor)
     _checked(libc().prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0))
     _checked(libc().syscall(RESTRICT, rules, 0))
     os.close(rules)
