@@ -121,19 +121,19 @@ class _Viewer:
         hollows = hollows_of(observation, self.hollow)
         pose, host = observation.log.poses[ticks, self.shape.body], observation.log.poses[ticks, self.hollow.body]
         up = rotate_back(host[:, 3:], observation.up)
-        place = rotate(pose[:, None, 3:], self.points) + (pose[:, :3] - host[:, :3])[:, None]
-        local = rotate_back(host[:, None, 3:], place)
+        position = rotate(pose[:, None, 3:], self.points) + (pose[:, :3] - host[:, :3])[:, None]
+        local = rotate_back(host[:, None, 3:], position)
         step = hollows.space.step
         # Whole steps, so that bodies that are alike share what is found.
         clearance = step * int(CLEARANCE * min(solid.half_width for solid in self.shape.solids) / step)
         share, depth = np.zeros(len(ticks)), np.zeros(len(ticks))
-        for direction, first, way, here in _distinct(hollows.which[ticks], local, step):
+        for direction, first, which, here in _distinct(hollows.which[ticks], local, step):
             pools = hollows.pools(direction, clearance)
             upward = np.repeat(up[first], len(self.points), axis=0)
             deep = hollows.space.depth(local[first].reshape(-1, 3), upward, pools, clearance)
             deep = deep.reshape(len(first), -1)
-            share[here] = ((deep > 0) @ self.weights)[way]
-            depth[here] = (deep @ self.weights)[way]
+            share[here] = ((deep > 0) @ self.weights)[which]
+            depth[here] = (deep @ self.weights)[which]
         return share, depth
 
     def first_inside(self, first: int, last: int) -> int:
@@ -156,13 +156,13 @@ def _distinct(
     A twentieth of a grid step makes no difference, and what rests, rests for thousands of ticks.
 
     Yields:
-        The direction; one tick for each way of lying; for each tick of the direction, its way; the ticks of it.
+        The direction; one tick for each way of lying; for each tick of the direction, which of them it is; its ticks.
     """
     key = np.rint(local[:, [0, -1]].reshape(len(local), -1) / (0.05 * step)).astype(np.int64)
     for direction in np.unique(directions).tolist():
         ticks = np.flatnonzero(directions == direction)
-        _, first, way = np.unique(key[ticks], axis=0, return_index=True, return_inverse=True)
-        yield direction, ticks[first], way.ravel(), ticks
+        _, first, which = np.unique(key[ticks], axis=0, return_index=True, return_inverse=True)
+        yield direction, ticks[first], which.ravel(), ticks
 
 
 def _between_bounds(
@@ -173,8 +173,8 @@ def _between_bounds(
     if id(hollow) not in known:
         known[id(hollow)] = hollow.bounds()
     low, high = known[id(hollow)]
-    place = _relative(observation, hollow.body, shape, middle, ticks)
-    inside: BoolArray = np.all((place > low) & (place < high), axis=1, keepdims=False)
+    position = _relative(observation, hollow.body, shape, middle, ticks)
+    inside: BoolArray = np.all((position > low) & (position < high), axis=1, keepdims=False)
     return inside
 
 
@@ -200,8 +200,8 @@ def _since_anchored(near: BoolArray, looked: IntArray, anchored: BoolArray) -> B
 def _at_rest(observation: Observation, host: int, shape: RigidShape, middle: FloatArray, both: BoolArray) -> IntArray:
     step = ticks_of(LOOK_STEP, observation.dt)
     ticks = np.arange(0, observation.tick_count, step)
-    place = _relative(observation, host, shape, middle, ticks)
-    speed = np.linalg.norm(np.diff(place, axis=0), axis=1) / (step * observation.dt)
+    position = _relative(observation, host, shape, middle, ticks)
+    speed = np.linalg.norm(np.diff(position, axis=0), axis=1) / (step * observation.dt)
     still = runs(np.append(speed < REST_SPEED, False))
     still = still[(still[:, 1] - still[:, 0]) * step * observation.dt >= REST_WINDOW]
     return runs(mask_of(still * step, observation.tick_count) & both)

@@ -42,8 +42,8 @@ class Part:
         else:
             corners = np.concatenate([np.stack(solid.bounds()) for solid in self.solids])
             return corners.min(axis=0), corners.max(axis=0)
-        placed = corners @ self.rotation.T + self.displacement
-        return placed.min(axis=0), placed.max(axis=0)
+        points = corners @ self.rotation.T + self.displacement
+        return points.min(axis=0), points.max(axis=0)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -81,12 +81,12 @@ def rigid_shapes(observation: Observation) -> tuple[RigidShape, ...]:
             found.setdefault((body, _carried(observation, body, np.flatnonzero(carrier == body))), []).append(segment)
     shapes: list[RigidShape] = []
     for (body, parts), segments in found.items():
-        placed = _parts(observation, body, parts, int(observation.segments[segments[0]]))
-        if placed:
+        carried = _parts(observation, body, parts, int(observation.segments[segments[0]]))
+        if carried:
             held = np.zeros(len(observation.segments), dtype=np.bool_)
             held[segments] = True
-            solids = tuple(solid for part in placed for solid in part.solids)
-            shapes.append(RigidShape(body=body, solids=solids, parts=placed, during=observation.spread(held)))
+            solids = tuple(solid for part in carried for solid in part.solids)
+            shapes.append(RigidShape(body=body, solids=solids, parts=carried, during=observation.spread(held)))
     return tuple(shapes)
 
 
@@ -110,13 +110,13 @@ def _parts(observation: Observation, body: int, parts: tuple[int, ...], tick: in
             here = observation.log.poses[tick, part]
             displacement = rotate_back(pose[3:], here[:3] - pose[:3])
             rotation = matrix(multiply(inverses(pose[3:]), here[3:]))
-            solids = tuple(_placed(solid, displacement, rotation) for solid in solids)
+            solids = tuple(_moved(solid, displacement, rotation) for solid in solids)
         if solids or shape.profile or shape.surface is not None:
             found.append(Part(shape=shape, displacement=displacement, rotation=rotation, solids=solids))
     return tuple(found)
 
 
-def _placed(solid: Solid, displacement: FloatArray, rotation: FloatArray) -> Solid:
+def _moved(solid: Solid, displacement: FloatArray, rotation: FloatArray) -> Solid:
     return Solid(
         type=solid.type,
         size=solid.size,

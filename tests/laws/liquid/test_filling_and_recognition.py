@@ -10,7 +10,7 @@ from tests.fluents.liquids import liquid, placed, tilted, wet
 
 from prolepsis.engine.placing import resting_height
 from prolepsis.fluents import recognize
-from prolepsis.fluents.liquids.particle_places import places
+from prolepsis.fluents.liquids.particle_locations import particle_locations
 from prolepsis.fluents.observation import observe
 from prolepsis.geometry.shape import FloatArray, Geom, Shape
 from prolepsis.log.log import Log
@@ -81,7 +81,7 @@ def test_what_filling_accepts_is_contained_and_what_it_refuses_would_overflow(na
     assert str(fact.term) == "contains(cup1,liq1)" and fact.evidence["fraction"] == pytest.approx(1.0)
     assert fact.evidence["volume"] == pytest.approx(0.99 * capacity, rel=1e-3)
     assert not said(log, "spilled")
-    seen = observe(log).of(places)
+    seen = observe(log).of(particle_locations)
     assert seen is not None
     assert seen.inside[0].capacity(0) == pytest.approx(capacity, abs=AGREEMENT * upright)
     with pytest.raises(KnowledgeError, match="which holds"):

@@ -19,10 +19,10 @@ def assembled(parts: Sequence[Part], *, plugged: bool = False) -> Solids:
         parts: The parts.
         plugged: Whether holes that are drilled through them are left out.
     """
-    return union_of([_placed(part, plugged=plugged) for part in parts])
+    return union_of([_in_body_frame(part, plugged=plugged) for part in parts])
 
 
-def _placed(part: Part, *, plugged: bool) -> Solids:
+def _in_body_frame(part: Part, *, plugged: bool) -> Solids:
     solids = solids_as_arrays(replace(part.shape, holes=()) if plugged else part.shape)
     frame = np.empty_like(solids.frame)
     frame[:, :3] = solids.frame[:, :3] @ part.rotation.T + part.displacement

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from prolepsis.fluents.kernels.places import ON, Bits, Labels, Positions
+from prolepsis.fluents.kernels.locations import ON, Bits, Labels, Positions
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.system.kernels import njit
 

@@ -38,10 +38,10 @@ def departures(within: BoolArray, near: BoolArray, loose: BoolArray) -> IntArray
 
 @njit(cache=True)
 def arrivals(at: IntArray) -> IntArray:
-    """Return the (frame, particle, whence) of each arrival at another place than the last one. Shape (A, 3).
+    """Return the (frame, particle, whence) of each arrival at another location than the last one. Shape (A, 3).
 
     Args:
-        at: Number of the place of each particle in each frame, -1 for the air between, shape (F, P).
+        at: Number of the location of each particle in each frame, -1 for the air between, shape (F, P).
     """
     frame_count, count = at.shape
     found = np.empty((frame_count * count + 1, 3), dtype=np.int64)
@@ -49,15 +49,15 @@ def arrivals(at: IntArray) -> IntArray:
     for p in range(count):
         last = -2
         for f in range(frame_count):
-            place = at[f, p]
-            if place < 0:
+            location = at[f, p]
+            if location < 0:
                 # What starts in the air comes from nowhere.
                 if f == 0:
                     last = -1
                 continue
-            if last != place:
+            if last != location:
                 if last > -2:
                     found[number, 0], found[number, 1], found[number, 2] = f, p, last
                     number += 1
-                last = place
+                last = location
     return found[:number].copy()

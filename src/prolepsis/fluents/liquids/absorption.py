@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from prolepsis.fluents.liquids.flowing import Passages, evidence_of, streams
-from prolepsis.fluents.liquids.particle_places import places
+from prolepsis.fluents.liquids.particle_locations import particle_locations
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event
 from prolepsis.fluents.solids.touch import touches
@@ -46,7 +46,7 @@ def wiping(observation: Observation) -> Iterator[Fact]:
 
 def _exchanged(observation: Observation, type: str, *, into: bool) -> Iterator[Fact]:
     """Yield the streams of particles into or out of what holds them within itself."""
-    seen = observation.of(places)
+    seen = observation.of(particle_locations)
     if seen is None:
         return
     holder = seen.particles.holder

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from prolepsis.fluents.intervals import close_gaps, runs, ticks_of
-from prolepsis.fluents.liquids.particle_places import Inside, Places, places
+from prolepsis.fluents.liquids.particle_locations import Inside, ParticleLocations, particle_locations
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event
 from prolepsis.fluents.solids.containment import NOTICEABLE_FRACTION
@@ -38,7 +38,7 @@ class Passages:
 @event("flowingOut", "o1", "o2")
 def flowing_out(observation: Observation) -> Iterator[Fact]:
     """The stuff o2 streams out of a cavity of o1, over its rim or through a hole."""
-    seen = observation.of(places)
+    seen = observation.of(particle_locations)
     if seen is None:
         return
     from prolepsis.fluents.kernels.streams import departures
@@ -50,7 +50,7 @@ def flowing_out(observation: Observation) -> Iterator[Fact]:
             passages = _of_stuff(seen, left, stuff)
             for start, end, during in streams(observation, seen, passages):
                 evidence = evidence_of(seen, passages, during, stuff)
-                evidence |= _way_out(observation, seen, inside, passages, during)
+                evidence |= _exit_shares(observation, seen, inside, passages, during)
                 evidence |= _state(observation, seen, inside, start, end)
                 names = observation.unit_names[inside.unit], observation.unit_names[stuff]
                 yield observation.fact("event", "flowingOut", names, (start, end), evidence)
@@ -59,7 +59,7 @@ def flowing_out(observation: Observation) -> Iterator[Fact]:
 @event("flowingOnto", "o1", "o2")
 def flowing_onto(observation: Observation) -> Iterator[Fact]:
     """The stuff o1, or more of it, comes to o2: on it, or into its cavity."""
-    seen = observation.of(places)
+    seen = observation.of(particle_locations)
     if seen is None:
         return
     at = _whereabouts(observation, seen)
@@ -83,7 +83,7 @@ def flowing_onto(observation: Observation) -> Iterator[Fact]:
                 yield observation.fact("event", "flowingOnto", args, (start, end), evidence)
 
 
-def _whereabouts(observation: Observation, seen: Places) -> IntArray:
+def _whereabouts(observation: Observation, seen: ParticleLocations) -> IntArray:
     """Return the unit that each particle is in or on, -1 for none, shape (F, P); of nested vessels the innermost."""
     at = np.where(seen.manner > 0, seen.on, -1).astype(np.int64)
     holder = seen.particles.holder
@@ -95,13 +95,15 @@ def _whereabouts(observation: Observation, seen: Places) -> IntArray:
     return at
 
 
-def _of_stuff(seen: Places, rows: IntArray, stuff: int) -> Passages:
+def _of_stuff(seen: ParticleLocations, rows: IntArray, stuff: int) -> Passages:
     rows = rows[seen.particles.stuff[rows[:, 1]] == stuff]
     rows = rows[np.argsort(rows[:, 0], kind="stable")]
     return Passages(frame=rows[:, 0], particle=rows[:, 1])
 
 
-def streams(observation: Observation, seen: Places, passages: Passages) -> Iterator[tuple[int, int, BoolArray]]:
+def streams(
+    observation: Observation, seen: ParticleLocations, passages: Passages
+) -> Iterator[tuple[int, int, BoolArray]]:
     """Yield the streams among passages: first tick, first tick no longer, and which passages belong to it."""
     if not len(passages.frame):
         return
@@ -126,15 +128,15 @@ def streams(observation: Observation, seen: Places, passages: Passages) -> Itera
         yield int(tick[first]), end, during
 
 
-def evidence_of(seen: Places, passages: Passages, during: BoolArray, stuff: int) -> dict[str, float | str]:
+def evidence_of(seen: ParticleLocations, passages: Passages, during: BoolArray, stuff: int) -> dict[str, float | str]:
     # A particle that splashes to and fro counts once.
     particles = np.unique(passages.particle[during])
     fraction = min(float(seen.share[particles].sum()), 1.0)
     return {"fraction": fraction, "volume": fraction * seen.volume(stuff)}
 
 
-def _way_out(
-    observation: Observation, seen: Places, inside: Inside, passages: Passages, during: BoolArray
+def _exit_shares(
+    observation: Observation, seen: ParticleLocations, inside: Inside, passages: Passages, during: BoolArray
 ) -> dict[str, float | str]:
     """Return the shares of what leaves over the rim and through holes.
 
@@ -155,7 +157,9 @@ def _way_out(
     return {"over_rim": 1.0 - holes, "through_holes": holes}
 
 
-def _state(observation: Observation, seen: Places, inside: Inside, start: int, end: int) -> dict[str, float | str]:
+def _state(
+    observation: Observation, seen: ParticleLocations, inside: Inside, start: int, end: int
+) -> dict[str, float | str]:
     """Return how a vessel stands and how full it is.
 
     Returns:
@@ -176,7 +180,7 @@ def _state(observation: Observation, seen: Places, inside: Inside, start: int, e
 
 
 def _sources(
-    observation: Observation, seen: Places, passages: Passages, during: BoolArray, whence: IntArray
+    observation: Observation, seen: ParticleLocations, passages: Passages, during: BoolArray, whence: IntArray
 ) -> dict[str, float | str]:
     """Return from where most of what arrives came."""
     share: dict[int, float] = {}

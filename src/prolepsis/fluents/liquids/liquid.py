@@ -8,7 +8,7 @@ import numpy as np
 
 from prolepsis.fluents.intervals import debounce
 from prolepsis.fluents.liquids.liquid_motion import FLOWING_SPEED, particle_speeds
-from prolepsis.fluents.liquids.particle_places import Places, places
+from prolepsis.fluents.liquids.particle_locations import ParticleLocations, particle_locations
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event, fluent
 from prolepsis.fluents.solids.containment import CONTAINED_GAP, CONTAINED_LEAST, NOTICEABLE_FRACTION
@@ -31,7 +31,7 @@ bounces off or brushes past in falling is still under way."""
 @fluent("contains", "o1", "o2")
 def contains_liquid(observation: Observation) -> Iterator[Fact]:
     """o2 is inside a cavity of o1 which it could not leave at rest, and o1 or what it contains bears it."""
-    seen = observation.of(places)
+    seen = observation.of(particle_locations)
     if seen is None:
         return
     for stuff in seen.stuffs():
@@ -52,10 +52,10 @@ def contains_liquid(observation: Observation) -> Iterator[Fact]:
 @fluent("supports", "o1", "o2")
 def supports_liquid(observation: Observation) -> Iterator[Fact]:
     """o1 bears at least a tenth of o2's weight through contacts that lie under o2, and o2's weight is balanced."""
-    seen = observation.of(places)
+    seen = observation.of(particle_locations)
     if seen is None:
         return
-    from prolepsis.fluents.kernels.places import RESTING
+    from prolepsis.fluents.kernels.locations import RESTING
 
     resting = seen.manner == RESTING
     for stuff in seen.stuffs():
@@ -69,7 +69,7 @@ def supports_liquid(observation: Observation) -> Iterator[Fact]:
 @fluent("spilled", "o")
 def spilled_liquid(observation: Observation) -> Iterator[Fact]:
     """A noticeable fraction of the stuff rests on or flows over a surface outside every container."""
-    seen = observation.of(places)
+    seen = observation.of(particle_locations)
     if seen is None:
         return
     lying = observation.of(spilled_masks)
@@ -86,7 +86,7 @@ def spilled_liquid(observation: Observation) -> Iterator[Fact]:
 @event("spilling", "o")
 def spilling_liquid(observation: Observation) -> Iterator[Fact]:
     """A noticeable fraction of the stuff flows over a surface outside every container, or has just come there."""
-    seen = observation.of(places)
+    seen = observation.of(particle_locations)
     if seen is None:
         return
     lying = observation.of(spilled_masks)
@@ -104,7 +104,7 @@ def spilling_liquid(observation: Observation) -> Iterator[Fact]:
 @fluent("absorbs", "o1", "o2")
 def absorbs(observation: Observation) -> Iterator[Fact]:
     """o1 has taken up a noticeable fraction of the stuff o2, which moves with it."""
-    seen = observation.of(places)
+    seen = observation.of(particle_locations)
     if seen is None:
         return
     for stuff in seen.stuffs():
@@ -121,7 +121,7 @@ def absorbs(observation: Observation) -> Iterator[Fact]:
 
 def spilled_masks(observation: Observation) -> BoolArray:
     """Return which particles lie on or flow over a surface outside every container, or have left the scene, (F, P)."""
-    seen = observation.of(places)
+    seen = observation.of(particle_locations)
     assert seen is not None  # asked for by groundings that have looked
     touching = seen.manner > 0
     step = float(np.diff(seen.particles.tick).mean()) * observation.dt if len(seen.particles.tick) > 1 else 1.0
@@ -141,7 +141,7 @@ def opened(mask: BoolArray, frames: int) -> BoolArray:
     return found
 
 
-def _held(observation: Observation, seen: Places, stuff: int) -> dict[int, FloatArray]:
+def _held(observation: Observation, seen: ParticleLocations, stuff: int) -> dict[int, FloatArray]:
     """Return the share of a stuff that each unit holds within itself in each frame."""
     chosen = seen.particles.stuff == stuff
     holder = seen.particles.holder[:, chosen]
@@ -159,7 +159,7 @@ def _encloses(observation: Observation, holder: int, stuff: int) -> bool:
 
 def _noticed(
     observation: Observation,
-    seen: Places,
+    seen: ParticleLocations,
     fraction: FloatArray,
     *,
     gap: float = OUTSIDE_GAP,
@@ -170,7 +170,9 @@ def _noticed(
     return debounce(enough, observation.dt, gap=gap, least=min(least, observation.tick_count * observation.dt))
 
 
-def _without_residue(observation: Observation, seen: Places, fraction: FloatArray, stretches: IntArray) -> IntArray:
+def _without_residue(
+    observation: Observation, seen: ParticleLocations, fraction: FloatArray, stretches: IntArray
+) -> IntArray:
     """Return the stretches without those in which a vessel that held more has no more than its residue."""
     shown = seen.at_ticks(fraction, observation.tick_count)
     kept: list[IntArray] = []
@@ -185,7 +187,7 @@ def _without_residue(observation: Observation, seen: Places, fraction: FloatArra
 
 def _facts(
     observation: Observation,
-    seen: Places,
+    seen: ParticleLocations,
     what: tuple[str, int | None, int],
     stretches: IntArray,
     series: dict[str, FloatArray],

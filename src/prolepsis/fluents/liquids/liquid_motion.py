@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from prolepsis.fluents.intervals import debounce, ticks_of
-from prolepsis.fluents.liquids.particle_places import Places, places
+from prolepsis.fluents.liquids.particle_locations import ParticleLocations, particle_locations
 from prolepsis.fluents.liquids.stuff import FLOWING_SPEED, MOST, STUFF_GAP, STUFF_LEAST
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event
@@ -24,7 +24,7 @@ FALLING_SPEED = 0.3
 @event("moving", "o")
 def moving_liquid(observation: Observation) -> Iterator[Fact]:
     """The thing gets somewhere or turns, faster than 1 cm/s; jitter in place is no motion."""
-    seen = observation.of(places)
+    seen = observation.of(particle_locations)
     if seen is not None:
         moving = observation.of(particle_speeds) > FLOWING_SPEED
         yield from _mostly(observation, seen, "moving", moving & (seen.particles.holder != PARKED))
@@ -33,7 +33,7 @@ def moving_liquid(observation: Observation) -> Iterator[Fact]:
 @event("falling", "o")
 def falling_liquid(observation: Observation) -> Iterator[Fact]:
     """Nothing bears the thing and it goes down freely, from the loss of its support until it lands."""
-    seen = observation.of(places)
+    seen = observation.of(particle_locations)
     if seen is not None:
         in_air = (seen.manner == 0) & (seen.particles.holder == FREE)
         for inside in seen.inside:
@@ -65,7 +65,7 @@ def _displacements(observation: Observation) -> tuple[FloatArray, FloatArray]:
     return displacement, time
 
 
-def _mostly(observation: Observation, seen: Places, type: str, mask: BoolArray) -> Iterator[Fact]:
+def _mostly(observation: Observation, seen: ParticleLocations, type: str, mask: BoolArray) -> Iterator[Fact]:
     for stuff in seen.stuffs():
         fraction = seen.at_ticks(seen.fraction(mask, stuff), observation.tick_count)
         for start, end in debounce(fraction >= MOST, observation.dt, gap=STUFF_GAP, least=STUFF_LEAST):

@@ -105,7 +105,7 @@ class Inside:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
-class Places:
+class ParticleLocations:
     """All particles in all frames."""
 
     particles: Particles
@@ -149,7 +149,7 @@ class Places:
         return series[np.maximum(frame, 0)]
 
 
-def places(observation: Observation) -> Places | None:
+def particle_locations(observation: Observation) -> ParticleLocations | None:
     """Return where the particles of a log are, or None if it has none."""
     particles = observation.log.particles
     if not len(particles.tick) or not len(particles.stuff):
@@ -161,10 +161,10 @@ def places(observation: Observation) -> Places | None:
     if not loose.any():
         # What stays within an egg or a sponge touches nothing: no compiled loop is needed.
         manner, on = np.zeros(loose.shape, dtype=np.uint8), np.full(loose.shape, -1, dtype=np.int16)
-        return Places(particles=particles, share=share, inside=(), manner=manner, on=on)
+        return ParticleLocations(particles=particles, share=share, inside=(), manner=manner, on=on)
     inside = _inside(observation, particles, loose)
     manner, on = _touching(observation, particles, loose, inside)
-    return Places(particles=particles, share=share, inside=inside, manner=manner, on=on)
+    return ParticleLocations(particles=particles, share=share, inside=inside, manner=manner, on=on)
 
 
 def _inside(observation: Observation, particles: Particles, loose: BoolArray) -> tuple[Inside, ...]:
@@ -208,14 +208,14 @@ def _comes_near(
     """Return whether a particle that flows is ever within the ball round a shape."""
     pose = observation.log.poses[particles.tick, shape.body]
     middle = (pose[:, :3] + rotate(pose[:, 3:], (low + high) / 2)).astype(np.float32)
-    way = particles.position - middle[:, None]
-    near = np.einsum("fpc,fpc->fp", way, way) < 0.25 * float(np.square(high - low).sum())
+    offset = particles.position - middle[:, None]
+    near = np.einsum("fpc,fpc->fp", offset, offset) < 0.25 * float(np.square(high - low).sum())
     return bool((near & loose).any())
 
 
 def _seen_inside(observation: Observation, particles: Particles, loose: BoolArray, shape: RigidShape) -> Inside | None:
     # Imported here: logs without particles are recognized without compiled loops.
-    from prolepsis.fluents.kernels.places import HOLLOW, POOL, ROUND, pool_bits
+    from prolepsis.fluents.kernels.locations import HOLLOW, POOL, ROUND, pool_bits
 
     spacing = particles.spacing
     hollows = hollows_of(observation, shape)
@@ -255,8 +255,8 @@ def _seen_inside(observation: Observation, particles: Particles, loose: BoolArra
 def _touching(
     observation: Observation, particles: Particles, loose: BoolArray, inside: tuple[Inside, ...]
 ) -> tuple[Bits, npt.NDArray[np.int16]]:
+    from prolepsis.fluents.kernels.locations import touch_surfaces
     from prolepsis.fluents.kernels.piles import pile_up
-    from prolepsis.fluents.kernels.places import touch_surfaces
 
     spacing = particles.spacing
     manner = np.zeros(loose.shape, dtype=np.uint8)

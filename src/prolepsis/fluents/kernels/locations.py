@@ -184,7 +184,7 @@ def touch_surfaces(
         pose = poses[f]
         first, last = max(f - 1, 0), min(f + 1, frame_count - 1)
         still = (poses[first] == poses[last]).all()
-        way = rest_speed * max((tick[last] - tick[first]) * dt, 1e-9)
+        travel = rest_speed * max((tick[last] - tick[first]) * dt, 1e-9)
         ux, uy, uz = _turned_back(pose, up[0], up[1], up[2])
         near = 0
         for p in range(count):
@@ -215,7 +215,7 @@ def touch_surfaces(
                     here[axis] = position[last, p, axis] - position[first, p, axis]
                     shift = here[axis] if still else after[axis] - before[axis]
                     square += shift * shift
-                if square < way * way:
+                if square < travel * travel:
                     how = 3
             if how > manner[f, p] or (how == manner[f, p] and how > 0 and nearest < gap[f, p]):
                 manner[f, p], on[f, p], gap[f, p] = how, body, nearest
