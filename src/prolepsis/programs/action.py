@@ -64,7 +64,7 @@ SIGNED = frozenset({"length", "angle"})
 """Kinds of quantities that may be zero or negative."""
 GREATEST: Mapping[str, float] = {
     "acceleration": ROBOT.max_acceleration,
-    "rate": ROBOT.max_turn_rate,
+    "rate": ROBOT.max_angular_speed,
     "angle": math.pi,
     "count": 100.0,
     "length": 100.0,

@@ -57,9 +57,9 @@ class ArmHand:
         first = self._commanded()
         self._first = triple(first[:3])
         self._offset: Triple = (0.0, 0.0, 0.0)
-        self._turn: Triple = angles_of(reference, quaternion(first[3:]))
-        self._turned = (self._turn, turned(reference, self._turn))
-        self.ways = ArmPaths(self._kinematics, self._arm, gap, self._first, reference, mount, palm)
+        self._rotation: Triple = angles_of(reference, quaternion(first[3:]))
+        self._turned = (self._rotation, turned(reference, self._rotation))
+        self.paths = ArmPaths(self._kinematics, self._arm, gap, self._first, reference, mount, palm)
         self._stiffness = float(1.0 / np.linalg.eigvalsh(self._compliance())[-1])
         self.bind(state)
 
@@ -71,14 +71,14 @@ class ArmHand:
         self._model, self._data = model, state.data
         names = [self._prefix + joint.name for joint in self._arm.joints]
         self._servos = np.array([int(model.actuator(name).id) for name in names])
-        places = np.array([int(model.joint(name).qposadr[0]) for name in names])
+        addresses = np.array([int(model.joint(name).qposadr[0]) for name in names])
         # The lag of the velocity that the joint's own damping adds.
         dofs = np.array([int(model.joint(name).dofadr[0]) for name in names])
         self._lags = (np.array([joint.damping for joint in self._arm.joints]) + model.dof_damping[dofs]) / self._stiff
         self._mount, self._palm = (int(model.body(name).id) for name in self._names)
         self._tool = int(model.site(f"{self.name}/tool").id)
         self._links, fingers = self._bodies(int(model.jnt_bodyid[model.joint(names[0]).id]))
-        self.ways.bind(state, places, self._links, fingers)
+        self.paths.bind(state, addresses, self._links, fingers)
 
     def _bodies(self, first: int) -> tuple[dict[int, str], list[int]]:
         """Return the links from ``first`` to the palm by body, and what moves on the palm or is a pad."""
@@ -109,12 +109,12 @@ class ArmHand:
         """Take a command for this hand."""
         if isinstance(command, HandTarget):
             self._target, self._idle = command, 0
-            self._offset, self._turn = command.offset, command.rotation
+            self._offset, self._rotation = command.offset, command.rotation
         elif isinstance(command, ArmTarget):
             self._target, self._lag, self._idle = None, 0.0, 0
             self._joints, self._rates = np.array(command.joints), np.array(command.speeds)
             self._offset = command.offset
-            self._turn = command.rotation if self.ways.turns_freely else self.ways.pose(self._joints)[1]
+            self._rotation = command.rotation if self.paths.turns_freely else self.paths.pose(self._joints)[1]
         else:
             self.gripper.accept(command)
 
@@ -131,7 +131,7 @@ class ArmHand:
         self._idle += 1
         # An arm that holds still needs no new targets.
         if self._idle < RESTING or self._target is not None:
-            self.ways.joints = self._joints
+            self.paths.joints = self._joints
             self._data.ctrl[self._servos] = self._joints + self._lags * self._rates
         self.gripper.act(dt)
 
@@ -162,7 +162,7 @@ class ArmHand:
             position=triple(self._data.site_xpos[self._tool]),
             orientation=self._orientation(),
             offset=self._offset,
-            rotation=self._turn,
+            rotation=self._rotation,
             opening=self.gripper.opening,
             grip=self.gripper.command,
             load=self._load,
@@ -172,13 +172,13 @@ class ArmHand:
             stiffness=self._stiffness,
             lag=self._lag,
             bump=self._bump,
-            arm=self.ways,
+            arm=self.paths,
         )
 
     def _orientation(self) -> Quaternion:
         # Most programs do not turn the hand: it is kept.
-        if self._turned[0] != self._turn:
-            self._turned = (self._turn, turned(self._reference, self._turn))
+        if self._turned[0] != self._rotation:
+            self._turned = (self._rotation, turned(self._reference, self._rotation))
         return self._turned[1]
 
     def _velocity(self) -> Triple:

@@ -1,4 +1,4 @@
-"""Ways of one arm: along given poses, or to a pose by any way on which nothing is touched."""
+"""Paths of one arm: along given poses, or to a pose by any path on which nothing is touched."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SEARCHES = 6
 """Searches for a posture start where the arm is, at home, and at so many others between home and the ranges' ends."""
 REACH = 0.6
 """These lie up to this share of the way from home to the ends."""
-ALL_TURNS = 6
+FULL_FREEDOM = 6
 """Joints with which an arm can turn its hand as it likes where it gets to."""
 MARGIN, AT_THE_END = 0.1, 3.0
 """A joint nearer to the end of its range [rad] adds this to how uneasy a posture is [rad^2]: no hand goes on evenly."""
@@ -42,7 +42,7 @@ class ArmPaths:
         """Commanded coordinates [rad], shape (n,)."""
         self.speeds = kinematics.speeds
         self.accelerations = np.array([joint.acceleration for joint in arm.joints])
-        self.turns_freely = len(arm.joints) >= ALL_TURNS
+        self.turns_freely = len(arm.joints) >= FULL_FREEDOM
         """Whether it can turn the hand as it likes."""
         self._kinematics = kinematics
         self._gap, self._opening_joints = gap, max(len(arm.gripper.joints), 1)
@@ -54,15 +54,15 @@ class ArmPaths:
         self._scratch: Any = None
         self._held: tuple[int, int, int, FloatArray] | None = None
 
-    def bind(self, state: Running, places: IntArray, links: Collection[int], fingers: Collection[int]) -> None:
-        """Look at a model that is new: ``places`` of the joints in qpos, bodies up to the palm, and those on it."""
+    def bind(self, state: Running, addresses: IntArray, links: Collection[int], fingers: Collection[int]) -> None:
+        """Look at a model that is new: ``addresses`` of the joints in qpos, bodies up to the palm, and those on it."""
         self._state = state
-        self._places = places
+        self._addresses = addresses
         self._bodies, self._fingers = frozenset((*links, *fingers)), frozenset(fingers)
         joints = [j for j in range(state.model.njnt) if int(state.model.jnt_bodyid[j]) in self._fingers]
         # A palm that is a pad itself is moved by a joint of the arm.
-        opening = [int(state.model.jnt_qposadr[j]) for j in joints if int(state.model.jnt_qposadr[j]) not in places]
-        self._finger_places: IntArray = np.array(opening, dtype=np.int64)
+        opening = [int(state.model.jnt_qposadr[j]) for j in joints if int(state.model.jnt_qposadr[j]) not in addresses]
+        self._finger_addresses: IntArray = np.array(opening, dtype=np.int64)
         self._mount = int(state.model.body(self._mount_name).id)
         self._scratch = mujoco.MjData(state.model)
 
@@ -70,8 +70,8 @@ class ArmPaths:
         """Return the yaw from the first orientation in which a position in the world lies from the shoulder [rad]."""
         assert self._state is not None
         shoulder = compose_pose(self._mount_pose(), self._kinematics.shoulder)
-        way = [a - float(b) for a, b in zip(position, shoulder[:3], strict=True)]
-        x, y, _ = rotated(inverse(self._reference), (way[0], way[1], way[2]))
+        displacement = [a - float(b) for a, b in zip(position, shoulder[:3], strict=True)]
+        x, y, _ = rotated(inverse(self._reference), (displacement[0], displacement[1], displacement[2]))
         return float(np.arctan2(y, x))
 
     def held_at(self, width: float) -> tuple[float, float]:
@@ -110,7 +110,7 @@ class ArmPaths:
             joints.append(now)
         return JointPath(joints=np.array(joints))
 
-    def way(
+    def path_to(
         self,
         offset: Triple,
         rotation: Triple,
@@ -118,13 +118,13 @@ class ArmPaths:
         opening: float | None = None,
         held: str | None = None,
     ) -> JointPath:
-        """Return how the hand gets to a pose by any way on which nothing is touched, but by its fingers what is
+        """Return how the hand gets to a pose by any path on which nothing is touched, but by its fingers what is
         ignored, with its parts; with its pads ``opening`` [m] apart, or as they are, and with what it holds."""
         assert self._state is not None
         self._scratch.qpos[:] = self._state.data.qpos
         self._hold(held)
         if opening is not None:
-            self._scratch.qpos[self._finger_places] = self._gap.length(opening) / self._opening_joints
+            self._scratch.qpos[self._finger_addresses] = self._gap.length(opening) / self._opening_joints
         nearest: Found | None = None
         blocked = ""
         chosen: list[tuple[float, FloatArray]] = []
@@ -193,7 +193,7 @@ class ArmPaths:
         """Return what the arm would be inside of with the given joints, or nothing."""
         assert self._state is not None
         model, data = self._state.model, self._scratch
-        data.qpos[self._places] = joints
+        data.qpos[self._addresses] = joints
         mujoco.mj_kinematics(model, data)
         own_bodies = self._bodies
         if self._held is not None:

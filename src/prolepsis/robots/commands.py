@@ -118,14 +118,14 @@ class JointPath:
 
 
 def no_joint_path(first: JointPath | None, what: str, otherwise: str) -> ActionFailedError:
-    """Return why ``what`` cannot be done: what stood in the first way that was looked at, or ``otherwise`` if none."""
+    """Return why ``what`` cannot be done: what stood in the first path that was looked at, or ``otherwise`` if none."""
     if first is None:
         return ActionFailedError("unreachable", f"{what}: {otherwise}")
     return ActionFailedError(first.problem, f"{what}: {first.detail}")
 
 
 class ArmSense(Protocol):
-    """The arm that carries a hand, as a program may ask it. Places and turns are those of ``HandTarget``."""
+    """The arm that carries a hand, as a program may ask it. Offsets and rotations are those of ``HandTarget``."""
 
     @property
     def joints(self) -> FloatArray:
@@ -163,7 +163,7 @@ class ArmSense(Protocol):
         ``loose`` ones may be off about the vertical where an arm of five joints cannot have them."""
         ...
 
-    def way(
+    def path_to(
         self,
         offset: Triple,
         rotation: Triple,
@@ -171,7 +171,7 @@ class ArmSense(Protocol):
         opening: float | None = None,
         held: str | None = None,
     ) -> JointPath:
-        """Return how the hand gets to a pose by any way on which nothing is touched, but by its fingers what is
+        """Return how the hand gets to a pose by any path on which nothing is touched, but by its fingers what is
         ignored, with its parts; with its pads ``opening`` [m] apart, or as they are, and with what it holds."""
         ...
 

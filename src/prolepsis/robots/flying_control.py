@@ -25,7 +25,7 @@ class FlyingHand:
         self.name = thing.name
         self._first = thing.orientation
         self._stiffness = hand.position_gain
-        self._lags = np.repeat([hand.velocity_gain / hand.position_gain, hand.turn_damping / hand.turn_gain], 3)
+        self._lags = np.repeat([hand.velocity_gain / hand.position_gain, hand.rotation_damping / hand.rotation_gain], 3)
         self._target = HandTarget(hand=self.name, offset=(0.0, 0.0, 0.0))
         drive = Drive(
             motor=f"{self.name}/gap",

@@ -51,15 +51,15 @@ class Hand:
     """Greatest force of the base along each axis [N]: what it meets is pushed, not crushed."""
     max_acceleration: float = 30.0
     """Greatest acceleration that is commanded [m/s^2]: with 2 kg held, two thirds of the base's force."""
-    max_turn_rate: float = 6.0
+    max_angular_speed: float = 6.0
     """Greatest rate of turning that is commanded [rad/s]; a human wrist reaches about twice that."""
     position_gain: float = 2.0e4
     """Servo stiffness of the base [N/m]."""
     velocity_gain: float = 400.0
     """Servo damping of the base [N s/m]."""
-    turn_gain: float = 200.0
+    rotation_gain: float = 200.0
     """Servo stiffness of the base's rotations [N m/rad]."""
-    turn_damping: float = 4.0
+    rotation_damping: float = 4.0
     """Servo damping of the base's rotations [N m s/rad]."""
     opening_gain: float = 4.0e3
     """Servo stiffness of the opening [N/m]."""
@@ -147,7 +147,7 @@ class Hand:
         for k, axis in enumerate(("yaw", "pitch", "roll")):
             joint = palm.add_joint(name=f"{name}/{axis}", type=mujoco.mjtJoint.mjJNT_HINGE, axis=np.eye(3)[2 - k])
             joint.armature = 0.005
-            self._servo(spec, f"{name}/{axis}", self.turn_gain, self.turn_damping)
+            self._servo(spec, f"{name}/{axis}", self.rotation_gain, self.rotation_damping)
         for side, sign in (("left", 1.0), ("right", -1.0)):
             finger = spec.body(f"{name}/{side}_finger")
             finger.gravcomp = 1

@@ -91,8 +91,10 @@ def _named_meshes(tree: ElementTree.Element, path: Path) -> list[Path]:
     """Return the files of meshes that a model names, as far as they are there."""
     folders = [each.get(name, "") for each in tree.iter("compiler") for name in ("meshdir", "assetdir")]
     names = [each.get(name, "") for each in tree.iter("mesh") for name in ("file", "filename")]
-    found = [_place_of(name, path, folder) for name in names if name for folder in (*folders, "")]
-    return [place for place in found if place is not None and place.stat().st_size <= MOST_BYTES_OF_MESHES]
+    found = [_mesh_file(name, path, folder) for name in names if name for folder in (*folders, "")]
+    return [
+        candidate for candidate in found if candidate is not None and candidate.stat().st_size <= MOST_BYTES_OF_MESHES
+    ]
 
 
 def _find_meshes(spec: Any, path: Path) -> None:
@@ -108,7 +110,7 @@ def _find_meshes(spec: Any, path: Path) -> None:
             continue
         if Path(mesh.file).suffix.lower() not in MESHES:
             raise ScenarioError(f"{path}: the mesh {short(mesh.file)} cannot be read; allowed: {', '.join(MESHES)}")
-        found = _place_of(str(mesh.file), path, str(spec.meshdir))
+        found = _mesh_file(str(mesh.file), path, str(spec.meshdir))
         if found is None:
             missing.append(short(mesh.file)[:MOST_OF_A_NAME])
             continue
@@ -125,21 +127,21 @@ def _find_meshes(spec: Any, path: Path) -> None:
         )
 
 
-def _place_of(file: str, path: Path, folder: str) -> Path | None:
+def _mesh_file(file: str, path: Path, folder: str) -> Path | None:
     """Return where a mesh is: beside the robot's file, in its mesh folder, or in a package somewhere above it."""
     here = path.resolve().parent
     if not file.startswith("package://"):
         name = file.removeprefix("file://")
         # A robot's description often has a folder of models and one of meshes, and a package.xml above both.
         home = next((each for each in here.parents if (each / "package.xml").is_file()), here)
-        places = [inside(home, here / folder / name), inside(home, here / name)]
+        candidates = [inside(home, here / folder / name), inside(home, here / name)]
     else:
         package, _, name = file.removeprefix("package://").partition("/")
         above = [here, *here.parents]
-        places = [inside(each / package, Path(name)) for each in above] if _NAME.fullmatch(package) else []
+        candidates = [inside(each / package, Path(name)) for each in above] if _NAME.fullmatch(package) else []
         homes = [each for each in above if each.name == package or (each / "package.xml").is_file()]
-        places += [inside(each, Path(name)) for each in homes]
-    return next((place for place in places if place is not None and is_file(place)), None)
+        candidates += [inside(each, Path(name)) for each in homes]
+    return next((candidate for candidate in candidates if candidate is not None and is_file(candidate)), None)
 
 
 def _refuse_joints(model: Any, path: Path) -> None:

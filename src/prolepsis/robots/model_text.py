@@ -175,7 +175,7 @@ def _parse(file: Path, content: bytes, path: Path) -> Element:
 def _include(root: Element, path: Path, folder: Path, seen: list[Path], read: list[int]) -> None:
     """Put what is included in the place of each include, each file once, none from outside the robot's folder."""
     for parent in list(root.iter()):
-        for place, child in reversed(list(enumerate(parent))):
+        for index, child in reversed(list(enumerate(parent))):
             if child.tag != "include":
                 continue
             named = child.get("file", "")
@@ -195,7 +195,7 @@ def _include(root: Element, path: Path, folder: Path, seen: list[Path], read: li
                 raise ScenarioError(f"{path}: the robot's files are too long: more than {MOST_BYTES:,} bytes together")
             included = _parse(file, content, path)
             _include(included, path, folder, seen, read)
-            parent[place : place + 1] = list(included)
+            parent[index : index + 1] = list(included)
 
 
 def inside(folder: Path, file: Path) -> Path | None:

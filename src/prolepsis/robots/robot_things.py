@@ -67,7 +67,7 @@ def robot_things(
         palm = read.model.body(arm.gripper.palm).id
         rotation = quaternion(data.xquat[palm])
         held = _sum(triple(data.xpos[palm]), triple(rotated(rotation, arm.gripper.tool)))
-        position, orientation = _placed(whole, held, product(rotation, arm.gripper.tool_orientation))
+        position, orientation = _world_pose(whole, held, product(rotation, arm.gripper.tool_orientation))
         found = gripper_thing(arm.name)
         limits = {
             "opening": openings[arm.name],
@@ -91,7 +91,7 @@ def robot_things(
         name = read.model.body(body).name
         owner = made[read.owner[name]]
         quantities = {k: v for k, v in owner[0].quantities.items() if k in ("friction", "frictionWhenWet")}
-        position, orientation = _placed(whole, triple(data.xpos[body]), quaternion(data.xquat[body]))
+        position, orientation = _world_pose(whole, triple(data.xpos[body]), quaternion(data.xquat[body]))
         owner.append(
             Thing(
                 name=f"{whole.name}/{name}",
@@ -123,7 +123,7 @@ def _opening(kb: KnowledgeBase, name: str, greatest: float) -> float:
     return opening
 
 
-def _placed(whole: Thing, position: Triple, orientation: Quaternion) -> tuple[Triple, Quaternion]:
+def _world_pose(whole: Thing, position: Triple, orientation: Quaternion) -> tuple[Triple, Quaternion]:
     """Return a pose seen from the robot's root as a pose in the world."""
     return _sum(whole.position, triple(rotated(whole.orientation, position))), product(whole.orientation, orientation)
 

@@ -149,7 +149,7 @@ def _reach_by_arm(
         back = STANDOFF + extent_along(as_seen(object, sense), np.asarray(pose.forward)) / 2
         there, before = (pose.offset, {object.name}), (pose.before(back), set[str]())
         for (position, ignored), opening in ((there, pose.width), (there, width), (before, width)):
-            found = arm.way(position, pose.rotation, ignored, opening)
+            found = arm.path_to(position, pose.rotation, ignored, opening)
             if found.problem:
                 first = first or found
                 break

@@ -147,9 +147,9 @@ def _pinch(
         for found in _pinches(name, outward[name], other, there.arm.held_at, sense, shelled, held):
             offset, rotation = found.at.seen(there, reference)
             before, _ = found.at.moved(found.at.position, held.across, 0.0, APART * held.across).seen(there, reference)
-            path = there.arm.way(offset, rotation, {shelled.object.name}, found.opening)
+            path = there.arm.path_to(offset, rotation, {shelled.object.name}, found.opening)
             if not path.problem:
-                path = there.arm.way(before, rotation, (), found.opening)
+                path = there.arm.path_to(before, rotation, (), found.opening)
             if not path.problem:
                 return found
             first = first or path

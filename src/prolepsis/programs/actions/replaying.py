@@ -90,7 +90,7 @@ def _refuse_for_free_hand(recording: Recording, hand: Thing) -> None:
     if recording.orientations is not None:
         cosines = np.abs((recording.orientations[1:] * recording.orientations[:-1]).sum(axis=1))
         angles = 2 * np.arccos(np.clip(cosines, -1.0, 1.0))
-        _refuse_fast(recording, angles, FREE_HAND.max_turn_rate, f"{hand.name} turns", "rad/s")
+        _refuse_fast(recording, angles, FREE_HAND.max_angular_speed, f"{hand.name} turns", "rad/s")
 
 
 def _refuse_beyond(recording: Recording, values: FloatArray, low: float, high: float, what: str, unit: str) -> None:

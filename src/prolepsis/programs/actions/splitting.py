@@ -69,11 +69,11 @@ def _take(other: Thing, sense: Sense, object: Thing, held: HeldOut, reference: Q
             offset, rotation = second.seen(there, reference)
             back = HandPose(position=second.position - STANDOFF * second.rotation[:, 0], rotation=second.rotation)
             before, _ = back.seen(there, reference)
-            found = there.arm.way(offset, rotation, {object.name}, width)
+            found = there.arm.path_to(offset, rotation, {object.name}, width)
             if not found.problem:
-                found = there.arm.way(offset, rotation, {object.name}, opening)
+                found = there.arm.path_to(offset, rotation, {object.name}, opening)
             if not found.problem:
-                found = there.arm.way(before, rotation, (), opening)
+                found = there.arm.path_to(before, rotation, (), opening)
             if not found.problem:
                 sense = yield from open_to(other, opening, sense)
                 sense = yield from go(other, sense, before, rotation, ())

@@ -68,7 +68,7 @@ def go(
     """
     arm = sense.hands[hand.name].arm
     assert arm is not None, "a hand that flies goes straight"
-    path = arm.way(offset, rotation, ignoring, held=held)
+    path = arm.path_to(offset, rotation, ignoring, held=held)
     _refuse(hand, path)
     for start, end in zip(path.joints[:-1], path.joints[1:], strict=True):
         step = end - start

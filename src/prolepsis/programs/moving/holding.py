@@ -131,7 +131,7 @@ def free_pose(
                 return offset, rotation
             for height in (CLEAR, windup):
                 above = (offset[0], offset[1], offset[2] + height)
-                found = here.arm.way(above, rotation, {held.name}, held=held.name)
+                found = here.arm.path_to(above, rotation, {held.name}, held=held.name)
                 if found.problem:
                     first = first or found
                     break

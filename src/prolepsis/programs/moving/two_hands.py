@@ -131,10 +131,10 @@ def hold_out(hand: Thing, other: Thing, sense: Sense, seen: Thing, short: float,
     first: JointPath | None = None
     for held in holds(here, there, seen, reference):
         pose = held.first.seen(here, reference)
-        found = here.arm.way(*pose, {seen.name}, held=seen.name)
+        found = here.arm.path_to(*pose, {seen.name}, held=seen.name)
         if not found.problem:
             for second in held.second(short, there.arm.held_at(0.0)):
-                found = there.arm.way(*second.seen(there, reference), {seen.name}, 0.0)
+                found = there.arm.path_to(*second.seen(there, reference), {seen.name}, 0.0)
                 # Both arms will be elsewhere than now: whether they touch is looked at then.
                 if found.problem != "unreachable":
                     sense = yield from go(hand, sense, *pose, {seen.name}, seen.name)

@@ -162,12 +162,12 @@ def _range(probed: Any, jaw: str, pads: tuple[str, str], low: float, high: float
     """
     data, geoms = mujoco.MjData(probed), [pad_geoms(probed, pad) for pad in pads]
     angles = np.linspace(low, high, TABLE)
-    ways, gaps = np.zeros(TABLE), np.zeros(TABLE)
+    distances, gaps = np.zeros(TABLE), np.zeros(TABLE)
     for k, angle in enumerate(angles.tolist()):
         data.joint(jaw).qpos[0] = angle
         mujoco.mj_kinematics(probed, data)
-        ways[k], gaps[k] = pad_distance(probed, data, *geoms), _gap(probed, data, pads[1])
-    first = int(np.flatnonzero(ways <= 0.0).max(initial=-1)) + 1
+        distances[k], gaps[k] = pad_distance(probed, data, *geoms), _gap(probed, data, pads[1])
+    first = int(np.flatnonzero(distances <= 0.0).max(initial=-1)) + 1
     rises = np.diff(gaps[first:])
     slow = np.flatnonzero(rises < LEAST_RISE * np.maximum.accumulate(rises))
     last = first + (int(slow[0]) if len(slow) else len(rises))
@@ -191,14 +191,14 @@ def _foot(spec: Any, palm: str, pad: str, tool: Triple, where: str) -> FloatArra
     data = mujoco.MjData(probed)
     mujoco.mj_kinematics(probed, data)
     segments = [np.zeros(6) for _ in pad_geoms(probed, pad)]
-    ways = [
+    distances = [
         mujoco.mj_geomDistance(probed, data, probed.geom(PROBE).id, geom, FARTHEST, segment)
         for geom, segment in zip(pad_geoms(probed, pad), segments, strict=True)
     ]
-    if min(ways) <= 0.0:
+    if min(distances) <= 0.0:
         raise ScenarioError(f"{where}: tool must lie between the pads, {list(tool)} is inside {pad}")
     body = data.body(palm)
-    return body.xmat.reshape(3, 3).T @ (segments[int(np.argmin(ways))][3:] - body.xpos)
+    return body.xmat.reshape(3, 3).T @ (segments[int(np.argmin(distances))][3:] - body.xpos)
 
 
 def _with_probe(spec: Any, palm: str, position: Triple | FloatArray) -> Any:

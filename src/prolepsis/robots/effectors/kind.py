@@ -126,8 +126,8 @@ def read_effector(given: OwnGripper, where: str) -> tuple[EffectorKind[Any], Any
             raise unknown_key(where, key, known)
     fitting = [kind for kind in kinds if {*_needed(kind)} <= {*given.effector} <= {*_keys(kind)}]
     if len(fitting) != 1:
-        ways = " or ".join(f"{', '.join(_needed(kind))} ({kind.name})" for kind in kinds)
-        raise ScenarioError(f"{where}: its keys do not tell one kind of effector; needed: palm, tool and {ways}")
+        options = " or ".join(f"{', '.join(_needed(kind))} ({kind.name})" for kind in kinds)
+        raise ScenarioError(f"{where}: its keys do not tell one kind of effector; needed: palm, tool and {options}")
     kind = fitting[0]
     return kind, read_table(kind.table, given.effector, where)
 

@@ -89,7 +89,7 @@ def open_by_growing(
         low, high = 0.0 - high, 0.0 - low
         each.axis, each.range = [-float(value) for value in each.axis], [low, high]
         each.ref = -each.ref
-        _turn_couplings(spec, joint)
+        _reverse_couplings(spec, joint)
     # The effector's controller is taken to make up for what is lost between its motor and its pads.
     each.frictionloss = 0.0
     each.stiffness = [0.0, 0.0, 0.0]
@@ -242,7 +242,7 @@ def _opens_backwards(model: Any, joint: str, pads: Sequence[str], low: float, hi
     return gaps[0] > gaps[1]
 
 
-def _turn_couplings(spec: Any, joint: str) -> None:
+def _reverse_couplings(spec: Any, joint: str) -> None:
     """Let the couplings of a joint hold when its coordinate has the other sign."""
     for each in spec.equalities:
         if each.type != mujoco.mjtEq.mjEQ_JOINT:
