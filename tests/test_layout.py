@@ -20,6 +20,12 @@ KINDS = re.compile(
     r"eggs?|shell(s|ed)?|panels?|yolks?|fingers?|palms?|sponges?|bowls?|cups?|coconuts?|kernels?|membranes?|breakable",
     re.IGNORECASE,
 )
+EVERYDAY = {
+    "way": "displacement, distance, travel or path",
+    "place": "position, location or index",
+    "turn": "orientation, rotation or angle",
+}
+"""Words that name a quantity by its everyday word, and those by which robotics knows it."""
 LONGEST = 400
 """Lines of a file that one can still explain in a sentence."""
 
@@ -46,6 +52,31 @@ def test_the_scan_finds_a_kind_in_names_and_comments(tmp_path: Path) -> None:
         "panel",
         "finger",
     ]
+
+
+def test_quantities_are_named_by_the_words_of_the_field() -> None:
+    found = [
+        f"{file.relative_to(SOURCE)}: {name}: say {EVERYDAY[word]}"
+        for file in sorted(SOURCE.rglob("*.py"))
+        for name in sorted(names(file))
+        if (word := name.strip("_").lower().removesuffix("s")) in EVERYDAY
+    ]
+    assert not found
+
+
+def test_the_scan_finds_names_wherever_they_are_given(tmp_path: Path) -> None:
+    text = "from a import b as Place\ndef _turn(place, *ways): pass\nclass A:\n    turns: int\nx.way = f'{y}'"
+    (tmp_path / "a.py").write_text(text + "\n")
+    assert names(tmp_path / "a.py") >= {"Place", "_turn", "place", "ways", "A", "turns", "way", "y"}
+
+
+def names(file: Path) -> set[str]:
+    """Return what is named or given a name in a file: variables, parameters, attributes, functions and classes."""
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        fields = (getattr(node, field, None) for field in ("id", "arg", "attr", "name", "asname"))
+        found |= {field for field in fields if isinstance(field, str)}
+    return found
 
 
 def test_the_house_is_drawn_as_it_is() -> None:

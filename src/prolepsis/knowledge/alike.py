@@ -111,10 +111,10 @@ class _Counted:
                     roles.update(_bounded(tree))
         return cls(frozenset(roles), {role: tuple(above) for role, above in uppers.items()})
 
-    def counts(self, way: tuple[str, bool]) -> bool:
-        """Return whether someone may count those to whom he is related in a way."""
+    def counts(self, relation: tuple[str, bool]) -> bool:
+        """Return whether someone may count those to whom he is related so: by a role, or backwards."""
         seen: set[tuple[str, bool]] = set()
-        queue = [way]
+        queue = [relation]
         while queue:
             role, backwards = each = queue.pop()
             if each not in seen:
@@ -170,9 +170,9 @@ class _People:
         """Return those to whom several are related in the same way, and who count none of those."""
         found: set[str] = set()
         for name, links in self.links.items():
-            ways = Counter((role, backwards, self.said[other]) for role, backwards, other in links)
-            several = {(role, backwards) for (role, backwards, _), count in ways.items() if count > 1}
-            if several and not any(counted.counts(way) for way in several):
+            related = Counter((role, backwards, self.said[other]) for role, backwards, other in links)
+            several = {(role, backwards) for (role, backwards, _), count in related.items() if count > 1}
+            if several and not any(counted.counts(relation) for relation in several):
                 found.add(name)
         return found
 

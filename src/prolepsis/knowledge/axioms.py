@@ -256,10 +256,10 @@ def assertions(
     domains = {a.text.split("<", 1)[1].split(">", 1)[0] for a in terms if a.text.startswith("ObjectPropertyDomain")}
     axioms: list[Axiom] = []
     for name, told in situation.classes.items():
-        iri, place = situation.iris[name], situation.places[name]
+        iri, location = situation.iris[name], situation.locations[name]
         for class_name in told:
             reading = f"{name} is {_with_article(class_name)}"
-            axioms.append(Axiom(f"ClassAssertion(<{vocabulary.classes[class_name].iri}> <{iri}>)", reading, place))
+            axioms.append(Axiom(f"ClassAssertion(<{vocabulary.classes[class_name].iri}> <{iri}>)", reading, location))
         for entry_name, own in cells.items():
             default = (
                 None

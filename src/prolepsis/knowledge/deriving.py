@@ -66,7 +66,7 @@ def _mass_of_volume(base: KnowledgeBase, name: str) -> Known | None:
         return None
     if "Liquid" in base.types.classes[name]:
         stated = base.stated(name, "volume")
-        known = (stated, "volume") if stated is not None else _volume_of_place(base, name)
+        known = (stated, "volume") if stated is not None else _volume_by_host(base, name)
     else:
         known = derived.volume(_shape(base, name), lambda p: base.number(name, p), lambda: base.text(name, "file"))
     return _derived(density * known[0], "kg", f"density * {known[1]}") if known else None
@@ -75,14 +75,14 @@ def _mass_of_volume(base: KnowledgeBase, name: str) -> Known | None:
 def _volume(base: KnowledgeBase, name: str) -> Known | None:
     if "Liquid" not in base.types.classes[name]:
         return None
-    place = _volume_of_place(base, name)
-    if place is not None:
-        return _derived(place[0], "m3", place[1])
+    by_host = _volume_by_host(base, name)
+    if by_host is not None:
+        return _derived(by_host[0], "m3", by_host[1])
     mass, density = base.number(name, "mass"), base.number(name, "density")
     return _derived(mass / density, "m3", "mass / density") if mass and density else None
 
 
-def _volume_of_place(base: KnowledgeBase, name: str) -> tuple[float, str] | None:
+def _volume_by_host(base: KnowledgeBase, name: str) -> tuple[float, str] | None:
     """Return the volume of a liquid by what it fills or soaks [m^3], and how that is known."""
     fill = base.stated(name, "fill")
     for vessel in base.subjects("contains", name):
@@ -128,7 +128,7 @@ def _on_a_curve(base: KnowledgeBase, name: str, property_name: str) -> Known | N
     if value is None:
         low, high, unit = curve.points[0][0], curve.points[-1][0], where.unit
         raise KnowledgeError(
-            f"{base.situation.places[name]}: {name}: {curve.over} = {where.value:g} {unit}: the {property_name} of "
+            f"{base.situation.locations[name]}: {name}: {curve.over} = {where.value:g} {unit}: the {property_name} of "
             f"{best[0]} is known from {low:g} to {high:g} {unit} only; allowed: that, or a stated {property_name}"
         )
     return Known(

@@ -68,7 +68,7 @@ class KnowledgeBase:
 
         def where(name: str, property_name: str = "mass") -> str:
             stated = self.situation.said.get((name, property_name))
-            return stated[0].where if stated else self.situation.places[name]
+            return stated[0].where if stated else self.situation.locations[name]
 
         masses_of(self).refuse(where)
         for name in self.individuals:
@@ -119,10 +119,10 @@ class KnowledgeBase:
         self._require(name)
         return self.situation.wholes.get(name)
 
-    def place(self, name: str) -> str:
+    def location(self, name: str) -> str:
         """Return file and line where an individual is introduced, or why it is there."""
         self._require(name)
-        return self.situation.places[name]
+        return self.situation.locations[name]
 
     def relations(self) -> tuple[tuple[str, str, str], ...]:
         """Return the asserted relations between individuals but parthood: (relation, subject, object), sorted."""

@@ -73,9 +73,9 @@ class Masses:
         """
         for whole, parts in self.parts.items():
             total = self.stated(whole)
-            place = where(whole)
+            location = where(whole)
             if total is None:
-                total, place = self.share(whole), f"{place}: its share"
+                total, location = self.share(whole), f"{location}: its share"
             if total is None:
                 continue
             known = {part: mass for part in parts if (mass := self.fixed(part)) is not None}
@@ -86,4 +86,6 @@ class Masses:
                 names = f"its part{'s' if plural else ''} {', '.join(known)} {'have' if plural else 'has'}"
                 others = [part for part in parts if part not in known]
                 rest = f", which leaves nothing for {', '.join(others)}" if others else ""
-                raise KnowledgeError(f"{place}: the mass of {whole} is {total:g} kg, but {names} {together:g} kg{rest}")
+                raise KnowledgeError(
+                    f"{location}: the mass of {whole} is {total:g} kg, but {names} {together:g} kg{rest}"
+                )

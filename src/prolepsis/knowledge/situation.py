@@ -45,7 +45,7 @@ class Situation:
     """Full IRI of each individual."""
     statements: tuple[Statement, ...]
     """Values and relations, in the order of files and names."""
-    places: Mapping[str, str]
+    locations: Mapping[str, str]
     """File and line where each individual is introduced."""
     wholes: Mapping[str, str]
     """Part to whole."""
@@ -85,7 +85,7 @@ def read_situation(documents: tuple[Document, ...], vocabulary: Vocabulary, most
         KnowledgeError: If a value is wrong, or the parts are no trees, or there are too many individuals.
     """
     classes: dict[str, tuple[str, ...]] = {}
-    places: dict[str, str] = {}
+    locations: dict[str, str] = {}
     iris: dict[str, URIRef] = {}
     for document in documents:
         if not document.built_in:
@@ -106,20 +106,20 @@ def read_situation(documents: tuple[Document, ...], vocabulary: Vocabulary, most
             ]
             if told or name not in classes:
                 classes[name] = tuple(sorted({*classes.get(name, ()), *told}))
-                places.setdefault(name, document.where(iri))
+                locations.setdefault(name, document.where(iri))
     for name, told in sorted(classes.items()):
         for unknown in sorted({*told} - {*vocabulary.classes}):
-            raise UnknownNameError.of("class", unknown, vocabulary.classes, where=places[name])
+            raise UnknownNameError.of("class", unknown, vocabulary.classes, where=locations[name])
         if not told:
             known = [n for n, t in classes.items() if t]
-            raise UnknownNameError.of("individual", name, known, where=f"{places[name]}: it has no class")
+            raise UnknownNameError.of("individual", name, known, where=f"{locations[name]}: it has no class")
     statements = [s for document in documents for s in _statements(document, vocabulary, classes)]
     _refuse_second_values(statements, vocabulary)
     situation = Situation(
         classes=dict(sorted(classes.items())),
         iris={name: str(iri) for name, iri in iris.items()},
         statements=tuple(statements),
-        places=places,
+        locations=locations,
         wholes=_wholes(statements),
     )
     situation = _with_default_parts(situation, vocabulary)
@@ -213,14 +213,14 @@ def _wholes(statements: list[Statement]) -> dict[str, str]:
         while chain[-1] in wholes:
             chain.append(wholes[chain[-1]])
             if chain[-1] == part:
-                places = {str(s.value): s.where for s in statements if s.property == "hasPart"}
-                raise KnowledgeError(f"{places[part]}: {part} is a part of itself: {' is part of '.join(chain)}")
+                locations = {str(s.value): s.where for s in statements if s.property == "hasPart"}
+                raise KnowledgeError(f"{locations[part]}: {part} is a part of itself: {' is part of '.join(chain)}")
     return wholes
 
 
 def _with_default_parts(situation: Situation, vocabulary: Vocabulary) -> Situation:
     """Return the situation with the parts that its classes give where the files say nothing else."""
-    classes, places, wholes = dict(situation.classes), dict(situation.places), dict(situation.wholes)
+    classes, locations, wholes = dict(situation.classes), dict(situation.locations), dict(situation.wholes)
     iris = dict(situation.iris)
     statements = list(situation.statements)
     for whole, told in situation.classes.items():
@@ -237,21 +237,23 @@ def _with_default_parts(situation: Situation, vocabulary: Vocabulary) -> Situati
                 part_name = part_name_of(whole, above, part.kind, vocabulary)
                 if part_name in classes:
                     raise KnowledgeError(
-                        f"{places[part_name]}: {part_name} is part of nothing, and {whole} would have a part of that "
-                        f"name by default; say '{whole} hasPart {part_name}' or name it otherwise"
+                        f"{locations[part_name]}: {part_name} is part of nothing, and {whole} would have a part of "
+                        f"that name by default; say '{whole} hasPart {part_name}' or name it otherwise"
                     )
                 classes[part_name] = (part.kind,)
-                places[part_name] = f"default part of {name}: {part.source}"
+                locations[part_name] = f"default part of {name}: {part.source}"
                 wholes[part_name] = whole
                 iris[part_name] = NAMESPACE + part_name
                 statements.append(
-                    Statement(subject=whole, property="hasPart", value=part_name, where=places[part_name], derived=True)
+                    Statement(
+                        subject=whole, property="hasPart", value=part_name, where=locations[part_name], derived=True
+                    )
                 )
     return Situation(
         classes=dict(sorted(classes.items())),
         iris=iris,
         statements=tuple(statements),
-        places=places,
+        locations=locations,
         wholes=wholes,
     )
 
@@ -284,10 +286,11 @@ def _refuse_loose_parts(situation: Situation, vocabulary: Vocabulary) -> None:
         kind = " or ".join(sorted(needed))
         if whole is None:
             raise KnowledgeError(
-                f"{situation.places[name]}: {name} is part of nothing: {' and '.join(told)} must be a part of a {kind}"
+                f"{situation.locations[name]}: {name} is part of nothing: {' and '.join(told)} must be a part of "
+                f"a {kind}"
             )
         if not needed & set(vocabulary.told_classes(situation.classes[whole])):
             raise KnowledgeError(
-                f"{situation.places[name]}: {name} is a part of {whole}, which is no {kind}: "
+                f"{situation.locations[name]}: {name} is a part of {whole}, which is no {kind}: "
                 f"{' and '.join(told)} must be a part of a {kind}"
             )

@@ -22,7 +22,7 @@ _COMMON = (
 )
 """Namespaces whose names need no declaration."""
 
-_CLASS_PLACES = {
+_CLASS_PREDICATES = {
     RDF.type,
     RDF.first,
     RDFS.subClassOf,
@@ -76,7 +76,7 @@ def refuse_unknown_names(documents: tuple[Document, ...], vocabulary: Vocabulary
 
 
 def _role(predicate: Node) -> str:
-    if predicate in _CLASS_PLACES:
+    if predicate in _CLASS_PREDICATES:
         return "class"
     return (
         "property"

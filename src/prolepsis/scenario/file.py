@@ -75,8 +75,8 @@ def read_file(path: Path) -> ScenarioFile:
     except tomllib.TOMLDecodeError as error:
         message = str(error)
         line = re.search(r"at line (\d+)", message)
-        place = f"{path}:{line.group(1)}" if line else str(path)
-        raise ScenarioError(f"{place}: TOML syntax: {brief(message, 200)}") from error
+        location = f"{path}:{line.group(1)}" if line else str(path)
+        raise ScenarioError(f"{location}: TOML syntax: {brief(message, 200)}") from error
     except ValueError as error:
         raise ScenarioError(f"{path}: TOML syntax: a number, date or time that cannot be: {brief(error)}") from error
     except RecursionError as error:
@@ -108,7 +108,7 @@ def write_robot(robot: OwnRobot) -> dict[str, Any]:
     return table
 
 
-def read_table(type: type[T], table: Mapping[str, Any], place: str) -> T:
+def read_table(type: type[T], table: Mapping[str, Any], location: str) -> T:
     """Return what a table says that a dataclass describes.
 
     Raises:
@@ -120,7 +120,7 @@ def read_table(type: type[T], table: Mapping[str, Any], place: str) -> T:
         problem = error.errors(include_url=False)[0]
         # Where a value may be of several types, pydantic adds which of them it has tried.
         keys = [str(key) for key in problem["loc"] if "constrained-" not in str(key)]
-        where = place + "".join(f".{key}" for key in keys[:-1])
+        where = location + "".join(f".{key}" for key in keys[:-1])
         described: Any = OwnGripper if keys[0] == "grippers" and len(keys) > 2 else type
         known = {each.name: each for each in fields(described)}
         if problem["type"] == "unexpected_keyword_argument":
@@ -131,10 +131,10 @@ def read_table(type: type[T], table: Mapping[str, Any], place: str) -> T:
         raise ScenarioError(f"{where}.{keys[-1]}: {_said(problem)}") from None
 
 
-def unknown_key(place: str, key: str, known: Collection[str]) -> ScenarioError:
+def unknown_key(location: str, key: str, known: Collection[str]) -> ScenarioError:
     """Return the error for a key that a table may not have, with the nearest one that it may."""
     return ScenarioError(
-        f"{place}: unknown key {brief(repr(key))}{did_you_mean(key, known)}; known: {', '.join(known)}"
+        f"{location}: unknown key {brief(repr(key))}{did_you_mean(key, known)}; known: {', '.join(known)}"
     )
 
 

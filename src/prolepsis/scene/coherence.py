@@ -19,17 +19,19 @@ def refuse_nonsense(kb: KnowledgeBase, bodies: Collection[str]) -> None:
     """
     if not kb.objects:
         raise KnowledgeError("the situation names no physical object; state at least one, such as :floor a :Floor")
-    for relation, subject, place in kb.relations():
+    for relation, subject, host in kb.relations():
         if relation == "on":
-            _refuse_place(kb, subject, place, "be on", bodies)
+            _refuse_host(kb, subject, host, "be on", bodies)
         elif relation in HOLDING:
-            _refuse_place(kb, place, subject, HOLDING[relation], bodies)
+            _refuse_host(kb, host, subject, HOLDING[relation], bodies)
 
 
-def _refuse_place(kb: KnowledgeBase, name: str, host: str, how: str, bodies: Collection[str]) -> None:
+def _refuse_host(kb: KnowledgeBase, name: str, host: str, how: str, bodies: Collection[str]) -> None:
     if name == host:
-        raise KnowledgeError(f"{kb.place(name)}: {name} cannot {how} itself")
+        raise KnowledgeError(f"{kb.location(name)}: {name} cannot {how} itself")
     if host not in bodies:
         what = f"the {kb.kind(host)} {host}" if host in kb.objects else host
         known = brief_list(sorted({*bodies} - {name}))
-        raise KnowledgeError(f"{kb.place(name)}: {name} cannot {how} {what}; needed: a whole that is solid, as {known}")
+        raise KnowledgeError(
+            f"{kb.location(name)}: {name} cannot {how} {what}; needed: a whole that is solid, as {known}"
+        )

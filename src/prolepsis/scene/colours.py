@@ -22,6 +22,6 @@ def colour_of(kb: KnowledgeBase, name: str) -> Colour:
         parts = []
     if len(parts) not in (3, 4) or not all(0.0 <= part <= 1.0 for part in parts):
         allowed = "red, green, blue and opacity, each from 0 to 1"
-        raise KnowledgeError(f"{kb.place(name)}: {name}: colour {brief(repr(text))}; allowed: {allowed}")
+        raise KnowledgeError(f"{kb.location(name)}: {name}: colour {brief(repr(text))}; allowed: {allowed}")
     red, green, blue, *opacity = parts
     return (red, green, blue, opacity[0] if opacity else 1.0)

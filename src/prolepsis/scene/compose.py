@@ -62,7 +62,7 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
     thing_of = partial(_thing, kb, roles, begins)
     individuals = Individuals(kb=kb, roles=roles, bodiless=lambda name: thing_of(name, None))
     owners = {name: _owner(kb, name, kinds) for name in wholes}
-    below = {subject: place for relation, subject, place in kb.relations() if relation == "on" and subject in wholes}
+    below = {subject: host for relation, subject, host in kb.relations() if relation == "on" and subject in wholes}
     # What is in something is lowered into it from above, as what is on something is lowered onto it.
     below |= {
         inside: vessel for relation, vessel, inside in kb.relations() if relation == "contains" and inside in wholes
@@ -82,8 +82,8 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
                 thing = replace(_put_on(made_of, below[name], under, resting_height), shape=thing.shape)
         if thing.fixed and owners[name].claims is not None:
             raise KnowledgeError(
-                f"{kb.place(name)}: {name} ({thing.kind}) is Furniture, which never moves, and {owners[name].claims}; "
-                "allowed: one of them"
+                f"{kb.location(name)}: {name} ({thing.kind}) is Furniture, which never moves, and {owners[name].claims}"
+                "; allowed: one of them"
             )
         made[name] = owners[name].parts(individuals, thing)
     things = {name: each.things for name, each in made.items()}
@@ -142,8 +142,8 @@ def _refuse_dropped(kb: KnowledgeBase, made: Collection[str]) -> None:
         whole = kb.whole(name)
         if whole is not None and name not in made:
             raise KnowledgeError(
-                f"{kb.place(name)}: {name} ({kb.kind(name)}) is a part of {whole}, but a {kb.kind(whole)} has no such "
-                "part; allowed: a thing of its own, without :hasPart"
+                f"{kb.location(name)}: {name} ({kb.kind(name)}) is a part of {whole}, but a {kb.kind(whole)} has no "
+                "such part; allowed: a thing of its own, without :hasPart"
             )
 
 
@@ -164,7 +164,9 @@ def _owner(kb: KnowledgeBase, name: str, kinds: Sequence[Kind]) -> Kind:
     claiming = [kind for kind in kinds if kind.claims is not None and kb.is_a(name, kind.claims)]
     if len(claiming) > 1:
         classes = brief_list(str(kind.claims) for kind in claiming)
-        raise KnowledgeError(f"{kb.place(name)}: {name} ({kb.kind(name)}) is each of {classes}; allowed: one of them")
+        raise KnowledgeError(
+            f"{kb.location(name)}: {name} ({kb.kind(name)}) is each of {classes}; allowed: one of them"
+        )
     return claiming[0] if claiming else Kind()
 
 
@@ -292,6 +294,6 @@ def _put_on(thing: Thing, name: str, under: tuple[Thing, ...], resting_height: R
         raise KnowledgeError(f"{thing.name} is on {name} and has z stated too; state one of the two")
     x = thing.quantities.get("x", under[0].position[0])
     y = thing.quantities.get("y", under[0].position[1])
-    placed = replace(thing, position=(x, y, 0.0))
-    height = resting_height(placed, solid)
-    return replace(placed, position=(x, y, height))
+    moved = replace(thing, position=(x, y, 0.0))
+    height = resting_height(moved, solid)
+    return replace(moved, position=(x, y, height))

@@ -23,11 +23,11 @@ def solids_of(state: Running) -> list[int]:
     ]
 
 
-def touched(state: Running, index: int, places: FloatArray, reach: float) -> bool:
+def touched(state: Running, index: int, points: FloatArray, reach: float) -> bool:
     """Return whether one of the world points, shape (n, 3), is nearer than ``reach`` [m] to a thing where it is now."""
     shape = state.scene.things[index].shape
     pose = state.pose(state.scene.things[index].name)
-    local = (places - pose[:3]) @ matrix(pose[3:])
+    local = (points - pose[:3]) @ matrix(pose[3:])
     solids = bounded(shape)
     if len(solids) == len(shape.geoms):
         low, high = np.array([solid.bounds() for solid in solids]).swapaxes(0, 1)
@@ -36,8 +36,8 @@ def touched(state: Running, index: int, places: FloatArray, reach: float) -> boo
     return bool((field_of(shape).distance(local) < reach).any())
 
 
-def distance_to(state: Running, index: int, places: FloatArray) -> FloatArray:
+def distance_to(state: Running, index: int, points: FloatArray) -> FloatArray:
     """Return the distance of world points, shape (n, 3), to a thing where it is now [m], shape (n,)."""
     thing = state.scene.things[index]
     pose = state.pose(thing.name)
-    return field_of(thing.shape).distance((places - pose[:3]) @ matrix(pose[3:]))
+    return field_of(thing.shape).distance((points - pose[:3]) @ matrix(pose[3:]))

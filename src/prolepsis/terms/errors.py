@@ -91,8 +91,10 @@ class UnknownNameError(InputError):
             where: Where it was given, such as a file and line.
         """
         names = sorted(known)
-        place = f"{where}: " if where else ""
-        return cls(f"{place}no {what} named {brief(repr(name))}{did_you_mean(name, names)}; known: {brief_list(names)}")
+        prefix = f"{where}: " if where else ""
+        return cls(
+            f"{prefix}no {what} named {brief(repr(name))}{did_you_mean(name, names)}; known: {brief_list(names)}"
+        )
 
 
 class KnowledgeError(InputError):

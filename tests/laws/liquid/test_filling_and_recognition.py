@@ -17,7 +17,7 @@ from prolepsis.log.log import Log
 from prolepsis.log.things import Thing
 from prolepsis.log.timeline import Fact
 from prolepsis.matter.liquids.filling import basin_of, fill
-from prolepsis.matter.liquids.liquids import Place
+from prolepsis.matter.liquids.liquids import Placement
 from prolepsis.scene.scene import Pool
 from prolepsis.scene.shapes import SHAPES
 from prolepsis.terms.errors import KnowledgeError
@@ -54,8 +54,8 @@ def vessel(name: str, degrees: float) -> Thing:
 def filled(container: Thing, volume: float) -> Pool:
     """Return the particles of a volume [m^3] in it."""
     water = replace(liquid(), quantities={"density": 1000.0, "viscosity": 0.001, "volume": volume})
-    places = {"liq1": Place(relation="contains", host="cup1")}
-    (pool,) = fill([water], places, {"cup1": (container,)}, resting_height, 1500)[1]
+    placements = {"liq1": Placement(relation="contains", host="cup1")}
+    (pool,) = fill([water], placements, {"cup1": (container,)}, resting_height, 1500)[1]
     return pool
 
 

@@ -100,7 +100,7 @@ class Adhesion(Controller):
                 hold.loose = False
             if joint not in forces:
                 continue
-            out = self._turn(state, hold.holder) @ hold.normal
+            out = self._rotation(state, hold.holder) @ hold.normal
             force = forces[joint]
             along = float(force @ out)
             # What presses them together is no pull.
@@ -120,7 +120,7 @@ class Adhesion(Controller):
         """Let a hold be where the two things are now, without strain."""
         hold.point_on_holder = self._seen_from_holder(state, hold)
         number = next(k for k, joined in enumerate(self._joined) if joined is hold)
-        state.move_joint(self._numbers[number], *self._places(state, hold))
+        state.move_joint(self._numbers[number], *self._points(state, hold))
 
     def _join(self, state: Running) -> None:
         """Make the joints anew."""
@@ -131,8 +131,8 @@ class Adhesion(Controller):
         joints: list[PointJoint] = []
         for hold in self._joined:
             first, second = (self._carrier(state, thing) for thing in (hold.holder, hold.held))
-            place, other = self._places(state, hold)
-            joints.append(PointJoint(first=first, second=second, point_on_first=place, point_on_second=other))
+            on_first, on_second = self._points(state, hold)
+            joints.append(PointJoint(first=first, second=second, point_on_first=on_first, point_on_second=on_second))
         self._numbers = state.join(self, joints)
         for number, hold in zip(self._numbers, self._joined, strict=True):
             state.data.eq_active[number] = not hold.loose
@@ -143,7 +143,7 @@ class Adhesion(Controller):
         pairs = {(int(state.carrier[hold.holder]), int(state.carrier[hold.held])) for hold in self.holds}
         state.stick(self, ((holder, held) for holder, held in pairs if holder != held))
 
-    def _places(self, state: Running, hold: AdhesiveJoint) -> tuple[FloatArray, FloatArray]:
+    def _points(self, state: Running, hold: AdhesiveJoint) -> tuple[FloatArray, FloatArray]:
         """Return the point of a hold in the frames of the two bodies [m]."""
         assert hold.point_on_holder is not None
         first, second = state.offsets[hold.holder], state.offsets[hold.held]
@@ -155,7 +155,7 @@ class Adhesion(Controller):
     def _carrier(self, state: Running, thing: int) -> str:
         return state.scene.things[int(state.carrier[thing])].name
 
-    def _turn(self, state: Running, thing: int) -> FloatArray:
+    def _rotation(self, state: Running, thing: int) -> FloatArray:
         return state.data.body(self._carrier(state, thing)).xmat.reshape(3, 3) @ matrix(state.offsets[thing, 3:])
 
     def _seen_from_holder(self, state: Running, hold: AdhesiveJoint) -> FloatArray:

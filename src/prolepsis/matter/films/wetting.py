@@ -29,11 +29,11 @@ class Wetting(Controller):
         particles = state.particles
         if particles is None or self._ticks % LOOK_TICKS or not particles.free.any():
             return
-        places = particles.position[particles.free]
+        positions = particles.position[particles.free]
         for index in solids_of(state):
             if index in self._wet:
                 continue
-            if touched(state, index, places, TOUCH_REACH * particles.spacing):
+            if touched(state, index, positions, TOUCH_REACH * particles.spacing):
                 self._wetten(state, index)
 
     def _wetten(self, state: Running, index: int) -> None:

@@ -71,11 +71,11 @@ class WallBodies:
         for k, body in enumerate(self.ids.tolist()):
             if model.body_dofnum[body] != FREE_FREEDOMS or body in held:
                 continue
-            turn = data.ximat[body].reshape(3, 3)
+            rotation = data.ximat[body].reshape(3, 3)
             mass, inertia = model.body_mass[body], model.body_inertia[body]
             self._mobility[k, 0], self._inertia[k, 0] = 1.0 / mass, mass
-            self._mobility[k, 1:] = ((turn / inertia) @ turn.T).ravel()
-            self._inertia[k, 1:] = ((turn * inertia) @ turn.T).ravel()
+            self._mobility[k, 1:] = ((rotation / inertia) @ rotation.T).ravel()
+            self._inertia[k, 1:] = ((rotation * inertia) @ rotation.T).ravel()
 
     def _is_shard(self, state: Running, body: int, carrier: int) -> bool:
         return state.scene.things[carrier].emerges and float(state.model.body_mass[body]) < self._lightest
@@ -96,10 +96,11 @@ class WallBodies:
         self._position, self._rotation = position, rotation
         self._weigh(state)
         velocity = (position - old_position) / dt
-        turn = np.einsum("bij,bkj->bik", rotation.reshape(-1, 3, 3), old_rotation.reshape(-1, 3, 3))
+        change = np.einsum("bij,bkj->bik", rotation.reshape(-1, 3, 3), old_rotation.reshape(-1, 3, 3))
         # Of the small turn between two steps the skew part is the axis times the sine of the angle.
         skew = np.stack(
-            [turn[:, 2, 1] - turn[:, 1, 2], turn[:, 0, 2] - turn[:, 2, 0], turn[:, 1, 0] - turn[:, 0, 1]], axis=1
+            [change[:, 2, 1] - change[:, 1, 2], change[:, 0, 2] - change[:, 2, 0], change[:, 1, 0] - change[:, 0, 1]],
+            axis=1,
         )
         spin = skew / (2 * dt)
         return old_position, old_rotation, *self._carried_on(velocity, spin, dt)
@@ -142,7 +143,7 @@ class WallBodies:
         """Return position and rotation where the last step ended."""
         return self._position, self._rotation
 
-    def way(self, state: Running) -> float:
+    def travel(self, state: Running) -> float:
         """Return how far the fastest body has gone since the last step [m]."""
         return float(np.linalg.norm(state.data.xpos[self.ids] - self._position, axis=1).max(initial=0.0))
 

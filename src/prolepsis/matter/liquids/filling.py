@@ -14,11 +14,11 @@ from prolepsis.geometry.rotations import rotated
 from prolepsis.geometry.shape import FloatArray, Geom, Shape
 from prolepsis.geometry.signed_distance import shifted
 from prolepsis.log.things import Thing
-from prolepsis.matter.liquids.liquids import Place
+from prolepsis.matter.liquids.liquids import Placement
 from prolepsis.matter.liquids.region import Region, box_of
 from prolepsis.scenario.scenario import FEWEST_PARTICLES, MOST_PARTICLES
 from prolepsis.scene.kind import RestingHeight
-from prolepsis.scene.placed import Placed, nearest, placed
+from prolepsis.scene.posed import Posed, nearest, posed
 from prolepsis.scene.scene import Pool
 from prolepsis.terms.errors import KnowledgeError
 
@@ -34,7 +34,7 @@ UNEVEN = 0.25
 
 def fill(
     liquids: Sequence[Thing],
-    places: Mapping[str, Place],
+    placements: Mapping[str, Placement],
     solids: Mapping[str, tuple[Thing, ...]],
     resting_height: RestingHeight,
     particles: int,
@@ -43,7 +43,7 @@ def fill(
 
     Args:
         liquids: What flows, with density and volume, or the fill of its container.
-        places: Where each of them is.
+        placements: Where each of them is.
         solids: The bodies of each whole, at their poses.
         resting_height: Finds where a thing rests.
         particles: Number of particles of the largest liquid.
@@ -53,36 +53,36 @@ def fill(
     """
     if not liquids:
         return (), ()
-    basins: dict[str, tuple[Placed, Basin]] = {}
-    for name in sorted({place.host for place in places.values() if place.relation == "contains"}):
+    basins: dict[str, tuple[Posed, Basin]] = {}
+    for name in sorted({placement.host for placement in placements.values() if placement.relation == "contains"}):
         basins[name] = basin_of(name, solids[name])
-    volumes = {each.name: _volume(each, places[each.name], basins) for each in liquids}
+    volumes = {each.name: _volume(each, placements[each.name], basins) for each in liquids}
     for host, (container, basin) in basins.items():
-        inside = [each for each in liquids if places[each.name] == Place(relation="contains", host=host)]
+        inside = [each for each in liquids if placements[each.name] == Placement(relation="contains", host=host)]
         volumes |= _fills(container, basin, solids[host][0], inside, volumes)
     spacing = (max(volumes.values()) / particles) ** (1 / 3)
     counts = {name: round(volume / spacing**3) for name, volume in volumes.items()}
     _refuse_counts(counts, particles)
-    matter = tuple(placed(thing) for each in solids.values() for thing in each if thing.shape.geoms)
+    matter = tuple(posed(thing) for each in solids.values() for thing in each if thing.shape.geoms)
     found: dict[str, FloatArray] = {}
     for host, (container, basin) in basins.items():
-        inside = [each for each in liquids if places[each.name] == Place(relation="contains", host=host)]
+        inside = [each for each in liquids if placements[each.name] == Placement(relation="contains", host=host)]
         found |= _poured(container, basin, inside, volumes, counts, spacing, matter)
     for each in liquids:
-        place = places[each.name]
-        if place.relation == "on":
+        placement = placements[each.name]
+        if placement.relation == "on":
             found[each.name] = _puddle(
-                each, solids[place.host], volumes[each.name], counts[each.name], spacing, matter, resting_height
+                each, solids[placement.host], volumes[each.name], counts[each.name], spacing, matter, resting_height
             )
-        elif place.relation == "absorbs":
-            found[each.name] = _soaked(each, solids[place.host], counts[each.name])
+        elif placement.relation == "absorbs":
+            found[each.name] = _soaked(each, solids[placement.host], counts[each.name])
     made = tuple(_settled(each, volumes[each.name], found[each.name]) for each in liquids)
     pools = tuple(
         Pool(
             stuff=each.name,
             position=found[each.name],
             spacing=spacing,
-            holder=places[each.name].host if places[each.name].relation == "absorbs" else None,
+            holder=placements[each.name].host if placements[each.name].relation == "absorbs" else None,
         )
         for each in liquids
     )
@@ -112,7 +112,7 @@ def _refuse_counts(counts: Mapping[str, int], particles: int) -> None:
         )
 
 
-def basin_of(name: str, bodies: tuple[Thing, ...]) -> tuple[Placed, Basin]:
+def basin_of(name: str, bodies: tuple[Thing, ...]) -> tuple[Posed, Basin]:
     """Return a container as it stands, its holes stopped, and its basin.
 
     Raises:
@@ -120,7 +120,7 @@ def basin_of(name: str, bodies: tuple[Thing, ...]) -> tuple[Placed, Basin]:
     """
     if bodies and bodies[0].shape.geoms:
         whole = replace(bodies[0], shape=replace(bodies[0].shape, holes=()))
-        container = placed(whole)
+        container = posed(whole)
         basin = _basin(container, whole, UP)
         if basin is not None:
             return container, basin
@@ -129,13 +129,13 @@ def basin_of(name: str, bodies: tuple[Thing, ...]) -> tuple[Placed, Basin]:
     )
 
 
-def _basin(container: Placed, thing: Thing, up: FloatArray) -> Basin | None:
+def _basin(container: Posed, thing: Thing, up: FloatArray) -> Basin | None:
     solids = shifted(container.field.solids, np.array([*thing.position, *thing.orientation]))
     return space_of(solids, container.low, container.high).basin(up)
 
 
 def _fills(
-    container: Placed, basin: Basin, vessel: Thing, liquids: Sequence[Thing], volumes: Mapping[str, float]
+    container: Posed, basin: Basin, vessel: Thing, liquids: Sequence[Thing], volumes: Mapping[str, float]
 ) -> dict[str, float]:
     """Return the volumes [m^3] of liquids that follow from their fill, as shares of what the vessel holds upright.
 
@@ -154,11 +154,11 @@ def _fills(
     return {name: share * upright.capacity for name, share in filling.items()}
 
 
-def _volume(liquid: Thing, place: Place, basins: Mapping[str, tuple[Placed, Basin]]) -> float:
+def _volume(liquid: Thing, placement: Placement, basins: Mapping[str, tuple[Posed, Basin]]) -> float:
     """Return the volume of a liquid [m^3]."""
     known = liquid.quantities.get("volume")
-    if known is None and "fill" in liquid.quantities and place.relation == "contains":
-        known = liquid.quantities["fill"] * basins[place.host][1].capacity
+    if known is None and "fill" in liquid.quantities and placement.relation == "contains":
+        known = liquid.quantities["fill"] * basins[placement.host][1].capacity
     if known is None:
         raise KnowledgeError(f"{liquid.name} ({liquid.kind}) has no volume; state :volume, :mass or :fill")
     if "density" not in liquid.quantities:
@@ -169,13 +169,13 @@ def _volume(liquid: Thing, place: Place, basins: Mapping[str, tuple[Placed, Basi
 
 
 def _poured(
-    container: Placed,
+    container: Posed,
     basin: Basin,
     liquids: Sequence[Thing],
     volumes: Mapping[str, float],
     counts: Mapping[str, int],
     spacing: float,
-    matter: tuple[Placed, ...],
+    matter: tuple[Posed, ...],
 ) -> dict[str, FloatArray]:
     """Return the particles of all liquids in one container, the densest at the bottom."""
     ordered = sorted(liquids, key=lambda each: (-each.quantities["density"], each.name))
@@ -210,7 +210,7 @@ def _puddle(
     volume: float,
     count: int,
     spacing: float,
-    matter: tuple[Placed, ...],
+    matter: tuple[Posed, ...],
     resting_height: RestingHeight,
 ) -> FloatArray:
     """Return the particles of a puddle as thick as its surface tension makes it, but no thinner than one layer."""
@@ -235,7 +235,7 @@ def _puddle(
     order = np.argsort(np.hypot(points[:, 0] - x, points[:, 1] - y), kind="stable")[:count]
     chosen = points[order]
     bottom = chosen[chosen[:, 2] < ground + 0.5 * spacing]
-    support = nearest([placed(thing) for thing in under if thing.shape.geoms], bottom)
+    support = nearest([posed(thing) for thing in under if thing.shape.geoms], bottom)
     if len(chosen) < count or (np.abs(support - 0.5 * spacing) > UNEVEN * spacing).any():
         area = 1e4 * volume / (layers * spacing)
         raise KnowledgeError(
@@ -247,7 +247,7 @@ def _puddle(
 
 def _soaked(liquid: Thing, sponge: tuple[Thing, ...], count: int) -> FloatArray:
     """Return particles spread evenly through a sponge."""
-    matter = placed(sponge[0])
+    matter = posed(sponge[0])
     step = float(np.prod(matter.high - matter.low) / count) ** (1 / 3)
     while True:
         points = lattice(matter.low + step / 2, matter.high, step)

@@ -19,8 +19,8 @@ from prolepsis.terms.errors import InvalidSimulationError
 
 TICK = MAX_STEP
 """The liquid is looked at every tick [s]; a step of it takes several, one, or a part of one."""
-LONGEST_WAY = 0.5
-"""Way of the fastest wall after which a step of the liquid comes early [spacings]."""
+LONGEST_TRAVEL = 0.5
+"""Travel of the fastest wall after which a step of the liquid comes early [spacings]."""
 FAR = 2.0
 """Distance from all things at the start beyond which a particle is parked [m]."""
 LIGHTEST = 50.0
@@ -40,9 +40,9 @@ class Flowing(Controller):
         self.liquid = Liquid(_particles(state), state.scene.gravity)
         state.particles = self.liquid.particles
         things = state.scene.things
-        places = np.array([thing.position for thing in things if thing.shape.geoms])
-        self._centre = places.mean(axis=0) if len(places) else np.zeros(3)
-        self._far = FAR + float(np.linalg.norm(places - self._centre, axis=1).max(initial=0.0))
+        positions = np.array([thing.position for thing in things if thing.shape.geoms])
+        self._centre = positions.mean(axis=0) if len(positions) else np.zeros(3)
+        self._far = FAR + float(np.linalg.norm(positions - self._centre, axis=1).max(initial=0.0))
         self._walls = WallBodies(state, LIGHTEST * float(self.liquid.particles.mass.mean()))
         self._force = np.zeros((len(self._walls.ids), 6))
         self._elapsed = 0
@@ -86,7 +86,7 @@ class Flowing(Controller):
         if self._take_walls(state):
             self.liquid.forget_pushes()
             self._force = np.zeros((len(self._walls.ids), 6))
-        elif self._elapsed < self._ticks and self._walls.way(state) < LONGEST_WAY * particles.spacing:
+        elif self._elapsed < self._ticks and self._walls.travel(state) < LONGEST_TRAVEL * particles.spacing:
             particles.behind = self._elapsed * TICK
             return
         self._step(state, self._elapsed * TICK)
@@ -148,7 +148,7 @@ def _particles(state: Running) -> ParticleState:
     scene = state.scene
     names = {thing.name: i for i, thing in enumerate(scene.things)}
     columns: list[FloatArray] = []
-    places: list[FloatArray] = []
+    positions: list[FloatArray] = []
     for pool in scene.pools:
         thing, count = scene.thing(pool.stuff), len(pool.position)
         q = thing.quantities
@@ -167,9 +167,9 @@ def _particles(state: Running) -> ParticleState:
             math.cos(receding) - math.cos(advancing),
         ]
         columns.append(np.tile(np.array(row), (count, 1)))
-        places.append(np.asarray(pool.position, dtype=np.float64).reshape(-1, 3))
+        positions.append(np.asarray(pool.position, dtype=np.float64).reshape(-1, 3))
     table = np.concatenate(columns)
-    position = np.concatenate(places)
+    position = np.concatenate(positions)
     return ParticleState(
         position=position,
         velocity=np.zeros_like(position),

@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.log.things import Thing
-from prolepsis.matter.liquids.liquids import is_liquid, liquid_thing, place_of, refuse_amounts
+from prolepsis.matter.liquids.liquids import is_liquid, liquid_thing, placement_of, refuse_amounts
 from prolepsis.scene.kind import Controller, Draft, Kind
 from prolepsis.scene.running import Running
 from prolepsis.scene.scene import Pool
@@ -28,7 +28,7 @@ class Liquids(Kind):
     def refuse(self, kb: KnowledgeBase, kinds: Sequence[Kind]) -> None:
         """Refuse what is told of it that cannot be so."""
         for name in self.flowing(kb):
-            place_of(kb, name)
+            placement_of(kb, name)
             refuse_amounts(kb, name)
 
     def fill(self, draft: Draft) -> tuple[Mapping[str, tuple[Thing, ...]], tuple[Pool, ...]]:
@@ -40,9 +40,9 @@ class Liquids(Kind):
         from prolepsis.matter.liquids.filling import fill
 
         liquids = [liquid_thing(draft.individuals.kb, name, draft.individuals.roles(name)) for name in names]
-        places = {name: place_of(draft.individuals.kb, name) for name in names}
+        placements = {name: placement_of(draft.individuals.kb, name) for name in names}
         solids = {name: tuple(thing for thing in made if thing.is_body) for name, made in draft.things.items()}
-        filled, pools = fill(liquids, places, solids, draft.resting_height, draft.particles)
+        filled, pools = fill(liquids, placements, solids, draft.resting_height, draft.particles)
         return {each.name: (each,) for each in filled}, pools
 
     def start(self, state: Running) -> Sequence[Controller]:

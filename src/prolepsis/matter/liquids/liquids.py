@@ -21,7 +21,7 @@ ALIKE = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Place:
+class Placement:
     """Where a liquid is at the start."""
 
     relation: str
@@ -49,14 +49,14 @@ def liquid_thing(kb: KnowledgeBase, name: str, roles: frozenset[str]) -> Thing:
     )
 
 
-def place_of(kb: KnowledgeBase, name: str) -> Place:
+def placement_of(kb: KnowledgeBase, name: str) -> Placement:
     """Return where a liquid is told to be.
 
     Raises:
         KnowledgeError: If it is told to be nowhere, or in two places.
     """
     told = [
-        Place(relation=relation, host=host)
+        Placement(relation=relation, host=host)
         for relation in RELATIONS
         for host in (kb.subjects(relation, name) if relation != "on" else kb.objects_of(relation, name))
     ]
@@ -65,12 +65,12 @@ def place_of(kb: KnowledgeBase, name: str) -> Place:
             f"{name} ({kb.kind(name)}) is nowhere; state what :contains it, what it is :on, or what :absorbs it"
         )
     if len(told) > 1:
-        hosts = ", ".join(place.host for place in told)
+        hosts = ", ".join(placement.host for placement in told)
         raise KnowledgeError(f"{name} ({kb.kind(name)}) is in several places: {hosts}; name a liquid for each")
-    (place,) = told
-    if place.relation == "absorbs":
-        _refuse_dry(kb, place.host, name)
-    return place
+    (placement,) = told
+    if placement.relation == "absorbs":
+        _refuse_dry(kb, placement.host, name)
+    return placement
 
 
 def refuse_amounts(kb: KnowledgeBase, name: str) -> None:
@@ -83,7 +83,7 @@ def refuse_amounts(kb: KnowledgeBase, name: str) -> None:
     volume, mass, density = (kb.number(name, known) for known in ("volume", "mass", "density"))
     agree = volume and mass and density and math.isclose(mass, density * volume, rel_tol=ALIKE)
     if len(told) > 1 and not (told == ["volume", "mass"] and agree):
-        where = f"{kb.place(name)}: {name} ({kb.kind(name)})"
+        where = f"{kb.location(name)}: {name} ({kb.kind(name)})"
         raise KnowledgeError(f"{where}: its {' and '.join(told)} are stated; allowed: one of {', '.join(AMOUNTS)}")
 
 

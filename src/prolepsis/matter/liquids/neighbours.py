@@ -198,9 +198,9 @@ def find_neighbours(
                     > 0.0
                 ):
                     continue
-            place = squares[m] * fine
-            t = min(np.uint32(place), np.uint32(PAIR_TABLE_SIZE - 2))
-            part = place - np.float32(t)
+            coordinate = squares[m] * fine
+            t = min(np.uint32(coordinate), np.uint32(PAIR_TABLE_SIZE - 2))
+            part = coordinate - np.float32(t)
             entry, following = table[t], table[t + np.uint32(1)]
             total += entry[0] + part * (following[0] - entry[0])
             w = (entry[1] + part * (following[1] - entry[1])) * metre

@@ -204,9 +204,13 @@ def add_pressure(
 
 @njit(cache=True, inline="always")
 def _add(
-    body: FloatArray, place: FloatArray, normal: FloatArray, distance: float, x: float, y: float, z: float
+    body: FloatArray, position: FloatArray, normal: FloatArray, distance: float, x: float, y: float, z: float
 ) -> None:
-    px, py, pz = place[0] - distance * normal[0], place[1] - distance * normal[1], place[2] - distance * normal[2]
+    px, py, pz = (
+        position[0] - distance * normal[0],
+        position[1] - distance * normal[1],
+        position[2] - distance * normal[2],
+    )
     body[0] += x
     body[1] += y
     body[2] += z

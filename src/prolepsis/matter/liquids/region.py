@@ -8,7 +8,7 @@ import numpy as np
 
 from prolepsis.geometry.hollows import Basin
 from prolepsis.geometry.shape import BoolArray, FloatArray
-from prolepsis.scene.placed import Placed, nearest
+from prolepsis.scene.posed import Posed, nearest
 
 SMALL = 1e-4
 """Step of finite differences over the clearance [1]."""
@@ -18,7 +18,7 @@ SMALL = 1e-4
 class Region:
     """Where the centres of particles may be."""
 
-    matter: tuple[Placed, ...]
+    matter: tuple[Posed, ...]
     """What takes up space."""
     clearance: float
     """Least distance of a centre to it [m]."""
@@ -28,7 +28,7 @@ class Region:
     """What it is the inside of, if anything."""
 
     @classmethod
-    def of(cls, container: Placed, basin: Basin, others: tuple[Placed, ...], spacing: float, level: float) -> Region:
+    def of(cls, container: Posed, basin: Basin, others: tuple[Posed, ...], spacing: float, level: float) -> Region:
         """Return the region in the basin of a container up to a level [m], clear of what else is near."""
         low, high = container.low - spacing, container.high + spacing
         near = [each for each in others if each.name != container.name]

@@ -75,6 +75,6 @@ def add_tension(
 @njit(cache=True, inline="always")
 def _air_share(gradient: float, steepest: float, table: FloatArray) -> float:
     """Return a wall's share where its derivative is ``-gradient`` [1 / spacing]."""
-    place = math.sqrt(max(1.0 - gradient / steepest, 0.0)) * (TABLE_SIZE - 1)
-    k = min(int(place), TABLE_SIZE - 2)
-    return table[k] + (place - k) * (table[k + 1] - table[k])
+    coordinate = math.sqrt(max(1.0 - gradient / steepest, 0.0)) * (TABLE_SIZE - 1)
+    k = min(int(coordinate), TABLE_SIZE - 2)
+    return table[k] + (coordinate - k) * (table[k + 1] - table[k])

@@ -82,9 +82,9 @@ def empty_contacts(n: int) -> WallContacts:
 @njit(cache=True, inline="always")
 def read_table(table: FloatArray, q: float) -> float:
     """Return the value of a wall table at ``q`` spacings, interpolated."""
-    place = min(max(q, 0.0), SUPPORT) * ((TABLE_SIZE - 1) / SUPPORT)
-    k = min(int(place), TABLE_SIZE - 2)
-    return table[k] + (place - k) * (table[k + 1] - table[k])
+    coordinate = min(max(q, 0.0), SUPPORT) * ((TABLE_SIZE - 1) / SUPPORT)
+    k = min(int(coordinate), TABLE_SIZE - 2)
+    return table[k] + (coordinate - k) * (table[k + 1] - table[k])
 
 
 @njit(cache=True)
@@ -158,27 +158,27 @@ def find_walls(
                 dx, dy, dz = position[i, 0] - ox, position[i, 1] - oy, position[i, 2] - oz
                 for f in range(count[m]):
                     distance = found[m, f, 0]
-                    place = contacts.seen[i]
-                    if place == SEEN:
+                    slot = contacts.seen[i]
+                    if slot == SEEN:
                         if distance >= contacts.distance[i, SEEN - 1]:
                             continue
-                        place = SEEN - 1
-                    while place > 0 and contacts.distance[i, place - 1] > distance:
-                        contacts.distance[i, place] = contacts.distance[i, place - 1]
-                        contacts.body[i, place] = contacts.body[i, place - 1]
+                        slot = SEEN - 1
+                    while slot > 0 and contacts.distance[i, slot - 1] > distance:
+                        contacts.distance[i, slot] = contacts.distance[i, slot - 1]
+                        contacts.body[i, slot] = contacts.body[i, slot - 1]
                         for c in range(3):
-                            contacts.normal[i, place, c] = contacts.normal[i, place - 1, c]
-                            contacts.velocity[i, place, c] = contacts.velocity[i, place - 1, c]
-                        place -= 1
-                    contacts.distance[i, place] = distance
-                    contacts.body[i, place] = b
+                            contacts.normal[i, slot, c] = contacts.normal[i, slot - 1, c]
+                            contacts.velocity[i, slot, c] = contacts.velocity[i, slot - 1, c]
+                        slot -= 1
+                    contacts.distance[i, slot] = distance
+                    contacts.body[i, slot] = b
                     nx, ny, nz = found[m, f, 1], found[m, f, 2], found[m, f, 3]
-                    contacts.normal[i, place, 0] = r[0] * nx + r[1] * ny + r[2] * nz
-                    contacts.normal[i, place, 1] = r[3] * nx + r[4] * ny + r[5] * nz
-                    contacts.normal[i, place, 2] = r[6] * nx + r[7] * ny + r[8] * nz
-                    contacts.velocity[i, place, 0] = ux + wy * dz - wz * dy
-                    contacts.velocity[i, place, 1] = uy + wz * dx - wx * dz
-                    contacts.velocity[i, place, 2] = uz + wx * dy - wy * dx
+                    contacts.normal[i, slot, 0] = r[0] * nx + r[1] * ny + r[2] * nz
+                    contacts.normal[i, slot, 1] = r[3] * nx + r[4] * ny + r[5] * nz
+                    contacts.normal[i, slot, 2] = r[6] * nx + r[7] * ny + r[8] * nz
+                    contacts.velocity[i, slot, 0] = ux + wy * dz - wz * dy
+                    contacts.velocity[i, slot, 1] = uy + wz * dx - wx * dz
+                    contacts.velocity[i, slot, 2] = uz + wx * dy - wy * dx
                     contacts.seen[i] = min(contacts.seen[i] + 1, SEEN)
     for i in range(n):
         count = contacts.seen[i]
@@ -244,8 +244,8 @@ def keep_outside(
         for f in range(before.seen[i]):
             distance = _ahead(before, i, f, velocity, dt)
             if distance <= 1.2 * least:
-                place = filled[f * body_count + before.body[i, f]]
-                which[place], ahead[place] = i, distance
+                slot = filled[f * body_count + before.body[i, f]]
+                which[slot], ahead[slot] = i, distance
                 filled[f * body_count + before.body[i, f]] += 1
     local, found = np.empty((total, 3)), np.empty((total, MOST_FACES, 4))
     count = np.empty(total, dtype=np.int64)

@@ -20,11 +20,11 @@ def give_way(yielded: FloatArray, mobility: FloatArray, arm: FloatArray, size: f
     yielded[1] += mobility[0] * y
     yielded[2] += mobility[0] * z
     tx, ty, tz = arm[1] * z - arm[2] * y, arm[2] * x - arm[0] * z, arm[0] * y - arm[1] * x
-    turn(yielded, mobility, tx, ty, tz)
+    give_spin(yielded, mobility, tx, ty, tz)
 
 
 @njit(cache=True, inline="always")
-def turn(yielded: FloatArray, mobility: FloatArray, tx: float, ty: float, tz: float) -> None:
+def give_spin(yielded: FloatArray, mobility: FloatArray, tx: float, ty: float, tz: float) -> None:
     """Change a body's spin by an angular impulse [N m s]."""
     yielded[3] += mobility[1] * tx + mobility[2] * ty + mobility[3] * tz
     yielded[4] += mobility[4] * tx + mobility[5] * ty + mobility[6] * tz
@@ -59,7 +59,7 @@ def response(mobility: FloatArray, wrench: FloatArray) -> FloatArray:
     for b in range(len(wrench)):
         w = wrench[b]
         made[b, :3] = mobility[b, 0] * w[:3]
-        turn(made[b], mobility[b], w[3], w[4], w[5])
+        give_spin(made[b], mobility[b], w[3], w[4], w[5])
     return made
 
 

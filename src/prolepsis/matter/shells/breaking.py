@@ -43,7 +43,7 @@ SLIDING = 1.3
 """In that time a contact that slides at 0.3 m/s moves by a sixth of its spread; loads rise by less than this [1]."""
 STEADY_CHANGE = 0.02
 """Contact forces are steady while they change by less than this part of what the screen allows [1] ..."""
-STEADY_WAY = 3.0e-3
+STEADY_TIME = 3.0e-3
 """... nothing is about to touch: it is farther away than the fastest motion goes in this time, three ticks [s] ..."""
 STEADY_LOAD = 0.8
 """... and no bond bears more than this part of its strength [1]."""
@@ -212,8 +212,8 @@ class Breaking(Controller):
             self._steady = all(abs(totals[b] - before[b]) < STEADY_CHANGE * self._watched[b].calm for b in totals)
         if self._steady and self._active < state.data.ncon:
             contact = state.data.contact
-            way = STEADY_WAY * float(np.abs(state.data.qvel).max())
-            self._steady = bool((contact.dist[contact.efc_address < 0] > way).all())
+            travel = STEADY_TIME * float(np.abs(state.data.qvel).max())
+            self._steady = bool((contact.dist[contact.efc_address < 0] > travel).all())
 
     def _contact_totals(self, state: Running) -> dict[int, float]:
         """Return the sum of the normal forces on each body that may break [N], by body."""
@@ -282,8 +282,8 @@ class Breaking(Controller):
         """
         fragment = self.fragments[0]
         graph, body = fragment.graph, state.data.body(fragment.body)
-        places = (np.array(points) - body.xpos) @ body.xmat.reshape(3, 3) + fragment.origin
-        pieces = np.linalg.norm(graph.centres - places[:, None], axis=2).argmin(axis=1)
+        positions = (np.array(points) - body.xpos) @ body.xmat.reshape(3, 3) + fragment.origin
+        pieces = np.linalg.norm(graph.centres - positions[:, None], axis=2).argmin(axis=1)
         cracking = graph.round_pieces(pieces) & ~graph.cracked
         cracked = graph.after_breaking(cracking, self._cracking.weakening)
         parts = cracked.without(cracked.round_pieces(pieces)).fragments()
@@ -300,12 +300,12 @@ class Breaking(Controller):
         contacts = state.contact_forces()
         second = contacts.bodies[:, 1] == body
         chosen = second | (contacts.bodies[:, 0] == body)
-        turn = state.data.body(fragment.body).xmat.reshape(3, 3)
+        rotation = state.data.body(fragment.body).xmat.reshape(3, 3)
         sign = np.where(second[chosen], 1.0, -1.0)[:, None]
         return Pressing(
             numbers=contacts.numbers[chosen],
-            points=(contacts.points[chosen] - state.data.body(fragment.body).xpos) @ turn + fragment.origin,
-            forces=sign * contacts.force[chosen] @ turn,
+            points=(contacts.points[chosen] - state.data.body(fragment.body).xpos) @ rotation + fragment.origin,
+            forces=sign * contacts.force[chosen] @ rotation,
             normal=contacts.normal_force[chosen],
         )
 

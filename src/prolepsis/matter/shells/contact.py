@@ -37,9 +37,9 @@ class ShellContact:
     def update(self, state: Running, point: FloatArray | None) -> None:
         """Give its contacts the stiffness of the shell at ``point`` [m], or at its lowest point when None."""
         body = state.data.body(self._thing.name)
-        turn = body.xmat.reshape(3, 3)
-        place = -turn[2] * self._semi_axes if point is None else (point - body.xpos) @ turn
-        unit = place / self._semi_axes
+        rotation = body.xmat.reshape(3, 3)
+        position = -rotation[2] * self._semi_axes if point is None else (point - body.xpos) @ rotation
+        unit = position / self._semi_axes
         along = abs(unit[0]) / math.sqrt(float(unit @ unit))
         stiffness = local_stiffness(self._semi_axes, along, self._plate_stiffness, self._pole_ratio)
         if abs(stiffness - self._stiffness) < SAME * stiffness:
@@ -149,8 +149,8 @@ class ShellDents:
         for other, dent in self._dents.items():
             touch = touching[other]
             first = math.isinf(dent.distance)
-            way = self._approach(state, other, touch) if first else dent.distance - touch.distance
-            sinking, dent.distance = max(way, 0.0), touch.distance
+            approach = self._approach(state, other, touch) if first else dent.distance - touch.distance
+            sinking, dent.distance = max(approach, 0.0), touch.distance
             if touch.force <= dent.force or dent.depth >= self._deepest:
                 continue
             # By the next substep it will have come closer by as much as in this one.

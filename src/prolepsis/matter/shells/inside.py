@@ -32,17 +32,17 @@ class Opening(Controller):
         self._index = state.scene.index(name)
         self._inside = np.flatnonzero(state.particles.holder == self._index)
         body = state.data.body(name)
-        turn = body.xmat.reshape(3, 3)
-        self._places = (state.particles.position[self._inside] - body.xpos) @ turn
-        state.particles.home[self._inside] = self._places
+        rotation = body.xmat.reshape(3, 3)
+        self._positions = (state.particles.position[self._inside] - body.xpos) @ rotation
+        state.particles.home[self._inside] = self._positions
         self._pose, self._motion = state.pose(name), np.zeros(6)
 
     def bind(self, state: Running) -> None:
         """Look up what it needs in a model that is new."""
         if state.carrier[self._index] >= 0:
             joint = state.model.joint(self._name)
-            place, speed = int(joint.qposadr[0]), int(joint.dofadr[0])
-            self._now = state.data.qpos[place : place + 7], state.data.qvel[speed : speed + 6]
+            coordinate, speed = int(joint.qposadr[0]), int(joint.dofadr[0])
+            self._now = state.data.qpos[coordinate : coordinate + 7], state.data.qvel[speed : speed + 6]
 
     def end_tick(self, state: Running) -> None:
         """Let out what is inside where the shell has fallen apart."""
@@ -52,11 +52,11 @@ class Opening(Controller):
         if state.carrier[self._index] >= 0:
             self._pose, self._motion = self._now[0].copy(), self._now[1].copy()
             return
-        turn = matrix(self._pose[3:])
-        arms = self._places @ turn.T
+        rotation = matrix(self._pose[3:])
+        arms = self._positions @ rotation.T
         particles.position[self._inside] = self._pose[:3] + arms
         # Shells break in an impact: what is inside goes on as fast as it was before.
-        particles.velocity[self._inside] = self._motion[:3] + np.cross(turn @ self._motion[3:], arms)
+        particles.velocity[self._inside] = self._motion[:3] + np.cross(rotation @ self._motion[3:], arms)
         particles.holder[self._inside] = FREE
         self._inside = self._inside[:0]
 
@@ -77,9 +77,9 @@ class Membrane(Controller):
         self._first, last = int(own[0]), int(own[-1])
         # As a slice they are reached ten times faster.
         self._own: IntArray | slice = slice(self._first, last + 1) if len(own) == last + 1 - self._first else own
-        places = state.particles.position[self._own]
-        self._rest = places - places.mean(axis=0)
-        self._places, self._push = np.zeros_like(places), np.zeros_like(places)
+        positions = state.particles.position[self._own]
+        self._rest = positions - positions.mean(axis=0)
+        self._positions, self._push = np.zeros_like(positions), np.zeros_like(positions)
         self.strength = stuff.force / (2 * math.pi * stuff.probe_radius)
         """Tension at which it tears: the probe's force over its rim [N/m]."""
         self.tension = 0.0
@@ -91,13 +91,13 @@ class Membrane(Controller):
         particles = state.particles
         if self.broken or particles is None or particles.holder[self._first] != FREE:
             return
-        places = particles.position[self._own].copy()
-        if np.array_equal(places, self._places):
+        positions = particles.position[self._own].copy()
+        if np.array_equal(positions, self._positions):
             # A step of the liquid takes several ticks.
             particles.velocity[self._own] += self._push
             return
-        middle = places.mean(axis=0)
-        pull = WOBBLE**2 * (middle + self._rest @ _turn(self._rest, places - middle).T - places)
+        middle = positions.mean(axis=0)
+        pull = WOBBLE**2 * (middle + self._rest @ _best_rotation(self._rest, positions - middle).T - positions)
         mass = particles.mass[self._own]
         # Halves of the yolk pull on each other through the membrane round its middle.
         force = float(mass @ np.linalg.norm(pull, axis=1)) / 2
@@ -108,11 +108,11 @@ class Membrane(Controller):
             state.set_attribute(self._name, "broken", 1.0)
             state.report(detachment(self._index, self._index, self._index, force))
             return
-        self._places, self._push = places, MAX_STEP * pull
+        self._positions, self._push = positions, MAX_STEP * pull
         particles.velocity[self._own] += self._push
 
 
-def _turn(rest: FloatArray, now: FloatArray) -> FloatArray:
+def _best_rotation(rest: FloatArray, now: FloatArray) -> FloatArray:
     """Return the rotation that brings one set of points nearest to another, both about their middle, shape (3, 3)."""
     u, _, v = np.linalg.svd(now.T @ rest)
     u[:, 2] *= np.sign(np.linalg.det(u @ v))

@@ -127,7 +127,7 @@ def _refuse_strength(kb: KnowledgeBase, name: str, breaking: Sequence[str]) -> N
         shells = [part for part in kb.parts(name) if kb.is_a(part, "Shell")]
         if shells:
             raise KnowledgeError(
-                f"{kb.place(name)}: {name} breaks by its shell; state the breakingForce of {shells[0]}"
+                f"{kb.location(name)}: {name} breaks by its shell; state the breakingForce of {shells[0]}"
             )
         raise _unbreakable(kb, name, "has a breakingForce", breaking)
     if kb.whole(name) is None and kb.is_a(name, "Breakable") and not kb.is_a(name, "Shelled"):
@@ -137,7 +137,7 @@ def _refuse_strength(kb: KnowledgeBase, name: str, breaking: Sequence[str]) -> N
 def _unbreakable(kb: KnowledgeBase, name: str, told: str, breaking: Sequence[str]) -> KnowledgeError:
     kinds = brief_list(c for c in kb.class_names() if {*breaking} & {*kb.vocabulary.told_classes((c,))})
     return KnowledgeError(
-        f"{kb.place(name)}: {name} ({kb.kind(name)}) {told}, but does not break here; what does: {kinds}"
+        f"{kb.location(name)}: {name} ({kb.kind(name)}) {told}, but does not break here; what does: {kinds}"
     )
 
 

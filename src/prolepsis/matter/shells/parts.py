@@ -125,7 +125,7 @@ def shelled(individuals: Individuals, whole: Thing) -> Made:
 def _membrane(kb: KnowledgeBase, stuff: Thing) -> Membraned:
     force, radius = (kb.number(stuff.name, needed) for needed in ("membraneForce", "probeRadius"))
     if force is None or radius is None:
-        where = f"{kb.place(stuff.name)}: {stuff.name} ({stuff.kind})"
+        where = f"{kb.location(stuff.name)}: {stuff.name} ({stuff.kind})"
         raise KnowledgeError(f"{where} has a membrane; state its membraneForce and the probeRadius")
     return Membraned(name=stuff.name, force=force, probe_radius=radius)
 
@@ -185,7 +185,7 @@ def shell_pieces(egg: Thing, shell: Thing) -> tuple[tuple[Thing, ...], tuple[Sha
                 name=f"{shell.name}/piece{k}",
                 kind=f"{shell.kind}Piece",
                 shape=Shape(geoms=(Geom(type="mesh", vertices=vertices),), colour=egg.shape.colour),
-                position=_placed(egg, centre),
+                position=_world_position(egg, centre),
                 orientation=egg.orientation,
                 mass=float(shell.mass * area / parts.areas.sum()),
                 whole=shell.name,
@@ -199,7 +199,7 @@ def shell_pieces(egg: Thing, shell: Thing) -> tuple[tuple[Thing, ...], tuple[Sha
     return tuple(made), tuple(shards)
 
 
-def _placed(egg: Thing, offset: FloatArray) -> Triple:
+def _world_position(egg: Thing, offset: FloatArray) -> Triple:
     x, y, z = np.asarray(egg.position) + rotated(egg.orientation, (offset[0], offset[1], offset[2]))
     return (float(x), float(y), float(z))
 

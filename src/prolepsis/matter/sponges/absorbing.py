@@ -99,11 +99,11 @@ class Absorbing(Controller):
     def _feel(self, state: Running, dt: float) -> None:
         """Bring the pressure up to date: along each axis, half of all that pushes on it over its face there."""
         body = state.model.body(self.thing.name).id
-        _, turn = self._frame(state)
+        _, rotation = self._frame(state)
         push = np.zeros(3)
         for contact, first, second, force in state.normal_forces():
             if body in (first, second):
-                push += force * np.abs(turn.T @ state.data.contact.frame[contact, :3])
+                push += force * np.abs(rotation.T @ state.data.contact.frame[contact, :3])
         pressure = float((push / 2 / self._faces).sum())
         self._outer += (pressure - self._outer) * min(dt / PRESSURE_TIME, 1.0)
         self.pressure = self.law.pressure_after(self.pressure, self._outer, dt)
@@ -114,14 +114,14 @@ class Absorbing(Controller):
     def _take_up(self, state: Running, particles: ParticleState, held: float, dt: float) -> int:
         """Take up free particles that touch it, and return how many."""
         law, spacing = self.law, particles.spacing
-        origin, turn = self._frame(state)
+        origin, rotation = self._frame(state)
         free = np.flatnonzero(particles.free)
-        local = (particles.position[free] - origin) @ turn
+        local = (particles.position[free] - origin) @ rotation
         touching = self.surface.touched_by(local, TOUCH_REACH * spacing)
         free, local = free[touching], local[touching]
         if len(free) and held >= law.retained:
             # What has dripped from it is not sucked back.
-            hanging = self.surface.is_below(local, turn.T @ self._up(state))
+            hanging = self.surface.is_below(local, rotation.T @ self._up(state))
             hanging[hanging] = self._clear(state, particles.position[free[hanging]], DRIP_ROOM * spacing)
             free, local = free[~hanging], local[~hanging]
         if not len(free):
@@ -143,12 +143,12 @@ class Absorbing(Controller):
     def _give_off(self, state: Running, particles: ParticleState, dripping: float, pressed: float, dt: float) -> int:
         """Let particles come out at free places, the lowest first, and return how many."""
         spacing = particles.spacing
-        origin, turn = self._frame(state)
-        places = origin + self.surface.places @ turn.T
+        origin, rotation = self._frame(state)
+        positions = origin + self.surface.exits @ rotation.T
         up = self._up(state)
-        below = self.surface.outward @ (turn.T @ up) < -0.5
+        below = self.surface.outward @ (rotation.T @ up) < -0.5
         drops = below.copy()
-        drops[drops] = self._clear(state, places[drops], DRIP_ROOM * spacing)
+        drops[drops] = self._clear(state, positions[drops], DRIP_ROOM * spacing)
         rate = pressed / self.law.pressing_time + (dripping / self.law.dripping_time if drops.any() else 0.0)
         held = self.held(particles)
         each = float(particles.mass[held].mean())
@@ -156,14 +156,14 @@ class Absorbing(Controller):
         wanted = int(self._due)
         if not wanted:
             return 0
-        open = drops if not pressed else np.ones(len(places), dtype=np.bool_)
-        open[open] = self._is_free(state, particles, places[open])
-        height = np.round(places[open] @ up / spacing)
+        open = drops if not pressed else np.ones(len(positions), dtype=np.bool_)
+        open[open] = self._is_free(state, particles, positions[open])
+        height = np.round(positions[open] @ up / spacing)
         chosen = np.flatnonzero(open)[np.lexsort((self._shuffled(open), height))][:wanted]
         given = held[np.argsort(self._order[held])][: len(chosen)]
         particles.holder[given] = FREE
-        particles.position[given] = places[chosen]
-        particles.velocity[given] = state.velocity_at(self.thing.name, places[chosen])
+        particles.position[given] = positions[chosen]
+        particles.velocity[given] = state.velocity_at(self.thing.name, positions[chosen])
         self._due -= len(given)
         return len(given)
 
@@ -171,21 +171,21 @@ class Absorbing(Controller):
         """Return in which order equally low places come, a different one each time."""
         return self._random.permutation(len(open))[open]
 
-    def _is_free(self, state: Running, particles: ParticleState, places: FloatArray) -> BoolArray:
-        """Return at which places neither a wall nor another particle is in the way."""
-        free = self._clear(state, places, WALL_ROOM * particles.spacing)
+    def _is_free(self, state: Running, particles: ParticleState, positions: FloatArray) -> BoolArray:
+        """Return at which positions neither a wall nor another particle is in the way."""
+        free = self._clear(state, positions, WALL_ROOM * particles.spacing)
         flowing = particles.position[particles.free]
         if len(flowing) and free.any():
-            distance, _ = nearest_of(flowing, places[free])
+            distance, _ = nearest_of(flowing, positions[free])
             free[free] = distance > ROOM * particles.spacing
         return free
 
-    def _clear(self, state: Running, places: FloatArray, room: float) -> BoolArray:
+    def _clear(self, state: Running, positions: FloatArray, room: float) -> BoolArray:
         """Return which world points are farther than ``room`` [m] from all other bodies."""
-        found = np.ones(len(places), dtype=np.bool_)
+        found = np.ones(len(positions), dtype=np.bool_)
         for i in solids_of(state):
             if i != self.index and found.any():
-                found[found] = distance_to(state, i, places[found]) > room
+                found[found] = distance_to(state, i, positions[found]) > room
         return found
 
     def _up(self, state: Running) -> FloatArray:

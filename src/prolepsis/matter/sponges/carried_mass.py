@@ -42,28 +42,28 @@ class CarriedMass:
         """Begin with a model that was rebuilt: it knows the own mass only."""
         self._now = self._own
 
-    def collide(self, state: Running, places: FloatArray, velocity: FloatArray, mass: FloatArray) -> None:
+    def collide(self, state: Running, positions: FloatArray, velocity: FloatArray, mass: FloatArray) -> None:
         """Give the body the momentum, linear and angular, of particles that become a part of it; call before ``set``.
 
         Args:
             state: The simulation; the body moves freely.
-            places: World frame [m], shape (n, 3).
+            positions: World frame [m], shape (n, 3).
             velocity: [m/s], shape (n, 3).
             mass: [kg], shape (n,).
         """
         model, data = state.model, state.data
         body = model.body(self._name).id
         first = model.body_dofadr[body]
-        centre, turn = data.xipos[body], data.ximat[body].reshape(3, 3)
+        centre, rotation = data.xipos[body], data.ximat[body].reshape(3, 3)
         frame = data.xmat[body].reshape(3, 3)
         spin = frame @ data.qvel[first + 3 : first + 6]
         middle = data.qvel[first : first + 3] + np.cross(spin, centre - data.xpos[body])
-        arms = places - centre
+        arms = positions - centre
         impulses = mass[:, None] * (velocity - middle)
         # The whole that results is as much heavier, and evenly so.
         factor = (self._now + float(mass.sum())) / self._now
         push = impulses.sum(axis=0) / (model.body_mass[body] * factor)
         kick = np.cross(arms, impulses).sum(axis=0)
-        twist = turn @ (turn.T @ kick / (model.body_inertia[body] * factor)) + spin * (1 / factor - 1)
+        twist = rotation @ (rotation.T @ kick / (model.body_inertia[body] * factor)) + spin * (1 / factor - 1)
         data.qvel[first : first + 3] += push + np.cross(twist, data.xpos[body] - centre)
         data.qvel[first + 3 : first + 6] += frame.T @ twist

@@ -54,9 +54,11 @@ class Sponges(Kind):
 def _refuse_unknown(kb: KnowledgeBase, name: str) -> None:
     unknown = [needed for needed in NEEDED if kb.number(name, needed) is None]
     if unknown:
-        raise KnowledgeError(f"{kb.place(name)}: {name} ({kb.kind(name)}) absorbs, but has no {', '.join(unknown)}")
+        raise KnowledgeError(f"{kb.location(name)}: {name} ({kb.kind(name)}) absorbs, but has no {', '.join(unknown)}")
     if kb.is_a(name, "Furniture"):
-        raise KnowledgeError(f"{kb.place(name)}: {name} ({kb.kind(name)}) is fixed, and what is fixed absorbs nothing")
+        raise KnowledgeError(
+            f"{kb.location(name)}: {name} ({kb.kind(name)}) is fixed, and what is fixed absorbs nothing"
+        )
 
 
 KIND = Sponges()

@@ -17,8 +17,8 @@ APART = 0.9
 """Least distance of two places outside [spacings]."""
 SMALL = 1e-3
 """Step of finite differences [spacings]."""
-MOST_PLACES = 10_000_000
-"""Most places that are looked at to find the surface; more would take gigabytes."""
+MOST_POINTS = 10_000_000
+"""Most points that are looked at to find the surface; more would take gigabytes."""
 GOLDEN = 1.2207440846057596
 """The number g with g^4 = g + 1: multiples of its powers fill a box evenly.
 
@@ -40,17 +40,17 @@ class SpongeSurface:
         """Least coordinates [m], shape (3,)."""
         self.high: FloatArray = corners[:, 1].max(axis=0)
         """Greatest coordinates [m], shape (3,)."""
-        self.places, self.outward = self._outside(spacing)
-        """Places for particles that come out [m], and the normals there, shape (k, 3) each."""
+        self.exits, self.outward = self._outside(spacing)
+        """Positions of particles that come out [m], and the normals there, shape (k, 3) each."""
 
     def _outside(self, spacing: float) -> tuple[FloatArray, FloatArray]:
         size = self.high - self.low
         steps = np.ceil(size / spacing) + 2
-        if steps.prod() > MOST_PLACES:
+        if steps.prod() > MOST_POINTS:
             shown = " x ".join(f"{1e3 * float(side):.4g}" for side in size)
             raise KnowledgeError(
                 f"a sponge of {shown} mm is too large for particles {1e3 * spacing:.2g} mm apart: at most "
-                f"{MOST_PLACES:,} places are looked at; allowed: a smaller sponge, or fewer particles"
+                f"{MOST_POINTS:,} places are looked at; allowed: a smaller sponge, or fewer particles"
             )
         axes = [(np.arange(int(n)) - (float(n) - 1) / 2) * spacing for n in steps]
         grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3) + (self.low + self.high) / 2
@@ -83,7 +83,7 @@ class SpongeSurface:
 
     def is_below(self, points: FloatArray, up: FloatArray) -> BoolArray:
         """Return which points, shape (n, 3), are in front of a part of it that looks down, shape (n,)."""
-        _, nearest = nearest_of(self.places, points)
+        _, nearest = nearest_of(self.exits, points)
         return self.outward[nearest] @ up < -0.5
 
     def inside(self, count: int) -> FloatArray:

@@ -32,17 +32,17 @@ class Denting(Controller):
 
     def bind(self, state: Running) -> None:
         """Look up what it needs in a model that is new."""
-        self._places = np.array([int(state.model.joint(name).qposadr[0]) for name in self._names])
+        self._addresses = np.array([int(state.model.joint(name).qposadr[0]) for name in self._names])
 
     def act(self, state: Running) -> None:
         """Let the panels that bear too great a moment give way."""
-        angle = state.data.qpos[self._places]
+        angle = state.data.qpos[self._addresses]
         rest = np.clip(self.rest, angle - self._most, angle + self._most)
         for k in np.flatnonzero(rest != self.rest):
             # The spec too, for a model that is rebuilt because something breaks is made from that.
             state.spec.joint(self._names[k]).springref = float(rest[k])
         self.rest = rest
-        state.model.qpos_spring[self._places] = rest
+        state.model.qpos_spring[self._addresses] = rest
 
     def end_tick(self, state: Running) -> None:
         """Tell how deep the greatest dent is."""

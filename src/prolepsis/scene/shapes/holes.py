@@ -53,8 +53,8 @@ def holes_of(vessel: Vessel, q: Mapping[str, float]) -> tuple[Hole, ...]:
     radius = q.get("holeRadius", 0.0)
     if not radius:
         return tuple(made)
-    place = _place(vessel, q)
-    (inner_r, inner_z), (outer_r, outer_z) = vessel.wall.at(place)
+    parameter = _parameter(vessel, q)
+    (inner_r, inner_z), (outer_r, outer_z) = vessel.wall.at(parameter)
     across = math.hypot(outer_r - inner_r, outer_z - inner_z)
     along, up = (outer_r - inner_r) / across, (outer_z - inner_z) / across
     # From within the cavity, so that the wall on the other side stays whole.
@@ -71,9 +71,12 @@ def windows_of(vessel: Vessel, q: Mapping[str, float]) -> tuple[Window, ...]:
     half = SQUARE * q.get("holeRadius", 0.0)
     if not half:
         return ()
-    place = _place(vessel, q)
-    turn = math.asin(half / _mean_radius(vessel, place))
-    return tuple(Window(rows=(place - half, place + half), sides=(angle - turn, angle + turn)) for angle in _angles(q))
+    parameter = _parameter(vessel, q)
+    half_angle = math.asin(half / _mean_radius(vessel, parameter))
+    return tuple(
+        Window(rows=(parameter - half, parameter + half), sides=(angle - half_angle, angle + half_angle))
+        for angle in _angles(q)
+    )
 
 
 def _angles(q: Mapping[str, float]) -> list[float]:
@@ -81,11 +84,11 @@ def _angles(q: Mapping[str, float]) -> list[float]:
     return [(q.get("holeAngle", 0.0) + math.tau * k / count) % math.tau for k in range(count)]
 
 
-def _mean_radius(vessel: Vessel, place: float) -> float:
-    return sum(r for r, _ in vessel.wall.at(place)) / 2
+def _mean_radius(vessel: Vessel, parameter: float) -> float:
+    return sum(r for r, _ in vessel.wall.at(parameter)) / 2
 
 
-def _place(vessel: Vessel, q: Mapping[str, float]) -> float:
+def _parameter(vessel: Vessel, q: Mapping[str, float]) -> float:
     """Return the parameter of the wall at the middle of the holes [m].
 
     Raises:
@@ -95,9 +98,9 @@ def _place(vessel: Vessel, q: Mapping[str, float]) -> float:
     if "holeHeight" not in q:
         raise KnowledgeError("holeRadius is given without holeHeight, the height of the holes' middle")
     wall = vessel.wall
-    place = wall.parameter(q["holeHeight"])
-    low, high = place - radius, place + radius
-    mean = _mean_radius(vessel, place)
+    parameter = wall.parameter(q["holeHeight"])
+    low, high = parameter - radius, parameter + radius
+    mean = _mean_radius(vessel, parameter)
     count = round(q.get("holeCount", 1.0))
     if low < wall.start or high > wall.end:
         raise KnowledgeError(
@@ -107,4 +110,4 @@ def _place(vessel: Vessel, q: Mapping[str, float]) -> float:
     if count < 1 or radius >= mean or 2 * count * math.asin(radius / mean) >= math.tau:
         most = math.floor(math.pi / math.asin(min(radius / mean, 1.0)))
         raise KnowledgeError(f"{count} holes of radius {radius:g} m do not fit round the wall; allowed: 1 to {most}")
-    return place
+    return parameter

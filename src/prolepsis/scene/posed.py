@@ -15,7 +15,7 @@ from prolepsis.log.things import Thing
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
-class Placed:
+class Posed:
     """A shape where it is."""
 
     name: str
@@ -36,7 +36,7 @@ class Placed:
         return self.field.distance((points - self.position) @ self.rotation)
 
 
-def placed(thing: Thing) -> Placed:
+def posed(thing: Thing) -> Posed:
     """Return a thing's matter where the thing is. It must have some."""
     rotation, position = matrix(np.array(thing.orientation)), np.array(thing.position)
     solids = bounded(thing.shape)
@@ -48,12 +48,10 @@ def placed(thing: Thing) -> Placed:
             chosen = np.indices((2, 2, 2)).reshape(3, -1).T == 1
             corners.append(np.where(chosen, greatest, least) @ rotation.T + position)
         low, high = np.concatenate(corners).min(axis=0), np.concatenate(corners).max(axis=0)
-    return Placed(
-        name=thing.name, field=field_of(thing.shape), position=position, rotation=rotation, low=low, high=high
-    )
+    return Posed(name=thing.name, field=field_of(thing.shape), position=position, rotation=rotation, low=low, high=high)
 
 
-def nearest(matter: Iterable[Placed], points: FloatArray) -> FloatArray:
+def nearest(matter: Iterable[Posed], points: FloatArray) -> FloatArray:
     """Return the distance of world points, shape (n, 3), to the nearest matter [m], shape (n,)."""
     found = np.full(len(points), np.inf)
     for each in matter:
