@@ -88,7 +88,7 @@ def test_a_sweet_s_shell_is_crushed_between_plates_at_its_own_force(sweet: Log) 
 
 
 def test_the_chocolate_of_a_crushed_sweet_is_one_body(sweet: Log) -> None:
-    kernel = sweet.index("kernel1")
+    kernel = sweet.index("egg1/kernel")
     assert sweet.carrier[0, kernel] == sweet.index("egg1")
     assert sweet.carrier[-1, kernel] == kernel
     assert np.isfinite(sweet.poses).all()

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.log.things import Thing
 from prolepsis.robots.hand import HAND
 from prolepsis.robots.robot_things import robot_of, robot_things
@@ -39,6 +40,14 @@ class FreeHands(Kind):
     shapes = ("parallelGripper",)
     roles = frozenset({"Gripper"})
     channels = CHANNELS
+
+    def refuse(self, kb: KnowledgeBase, kinds: Sequence[Kind]) -> None:
+        """Refuse hands that are told to stand on something: they hang in the air."""
+        for relation, name, host in kb.relations():
+            if relation == "on" and kb.whole(name) is None and kb.is_a(name, "Gripper"):
+                raise KnowledgeError(
+                    f"{name} is on {host}, but a {kb.kind(name)} does not rest on anything; state its z"
+                )
 
     def parts(self, individuals: Individuals, whole: Thing) -> Made:
         """Return it with its parts."""
