@@ -23,12 +23,14 @@ import tempfile
 import threading
 import time
 import warnings
+from collections.abc import Sequence
 from pathlib import Path
 from typing import IO, Any, cast
 
 from swiplserver import PrologError, PrologLaunchError, PrologMQI, PrologThread
 
 from prolepsis.logic.confinement import Walls, command, offered
+from prolepsis.logic.saved_state import saved_state
 from prolepsis.terms.errors import InputError, MissingToolError, Note, brief
 from prolepsis.terms.terms import format_atom
 
@@ -48,6 +50,8 @@ LONGEST_SOCKET = 91
 REQUIRE_CONFINEMENT = "PROLEPSIS_REQUIRE_CONFINEMENT"
 """Environment variable that refuses to ask where Prolog cannot be confined."""
 NO_SWIPL = "SWI-Prolog is not installed (no 'swipl' on PATH): sudo apt install swi-prolog-nox"
+STATE = "state"
+"""Saved state in the folder for the socket."""
 PREFIX, LOCK = "prolepsis-prolog-", "lock"
 """Of the folder for the socket: how its name begins, and the file that is locked while it is in use."""
 
@@ -121,9 +125,10 @@ class PrologProcess:
         walls = offered()
         missing = walls.missing
         # A system whose libraries stand elsewhere than the walls let be read starts with fewer.
+        state = saved_state(program, PROLOG_FILES, STACK_LIMIT)
         for fewer in (walls, Walls(calls=walls.calls), Walls()):
             try:
-                self._launch(program, fewer)
+                self._launch_from(program, fewer, state)
                 break
             except MissingToolError as error:
                 if _must_be_confined():
@@ -138,17 +143,38 @@ class PrologProcess:
         if missing:
             warnings.warn(f"Prolog is not confined; only the check of each goal protects: {missing}", Note, 2)
 
-    def _launch(self, program: str, walls: Walls) -> None:
-        arguments = [
-            "-f",
-            "none",
+    def _launch_from(self, program: str, walls: Walls, state: bytes | None) -> None:
+        """Start it from a saved state, or from its files where there is none or it does not start from that."""
+        files = [
             "-O",
             f"--stack-limit={STACK_LIMIT}m",
             "-s",
             str(PROLOG_FILES / "main.pl"),
-            "--quiet",
+            "-g",
+            "serve",
+            "-t",
+            "halt",
         ]
-        arguments += ["-g", "serve", "-t", "halt", "--", "--write_connection_values=true", "--pending_connections=64"]
+        if state is not None:
+            saved = self.folder / STATE
+            saved.write_bytes(state)
+            try:
+                self._launch(program, walls, ["-x", str(saved)])
+                return
+            except MissingToolError:
+                pass
+        self._launch(program, walls, files)
+
+    def _launch(self, program: str, walls: Walls, start: Sequence[str]) -> None:
+        arguments = [
+            *start,
+            "-f",
+            "none",
+            "--quiet",
+            "--",
+            "--write_connection_values=true",
+            "--pending_connections=64",
+        ]
         arguments += [f"--unix_domain_socket={PrologMQI.unix_domain_socket_file(str(self.folder))}"]
         words = command(program, arguments, walls=walls, folder=self.folder, code=PROLOG_FILES, memory=PROCESS_LIMIT)
         with tempfile.TemporaryFile() as said:

@@ -1,0 +1,62 @@
+"""What Prolog has loaded, saved as it is: it starts from that in a twentieth of a second, from its files in a third."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import subprocess
+import tempfile
+from pathlib import Path
+
+from prolepsis.system.cache import cache_root, keep, read_kept
+from prolepsis.terms.terms import format_atom
+
+OPTIONS = "class(development), autoload(false), stand_alone(false), foreign(no_save), goal(serve), toplevel(halt)"
+"""Libraries are still loaded from Prolog's own folder when a goal needs them."""
+MAKING_LIMIT = 60.0
+"""Longest time for making it [s]; it takes half a second."""
+
+
+def saved_state(program: str, code: Path, stack_limit: int) -> bytes | None:
+    """Return the saved state of a Prolog that has loaded ``main.pl``, made now if it has not been kept.
+
+    It begins with ``serve``. A Prolog that starts from a state goes by the options with which that was made.
+
+    Args:
+        program: Path of ``swipl``.
+        code: Folder of the Prolog files.
+        stack_limit: Memory that one query may use for terms [MB].
+
+    Returns:
+        None if this Prolog cannot make one.
+    """
+    file = cache_root() / "prolog" / _key(program, code, stack_limit)
+    content = read_kept(file)
+    if content is None:
+        content = _made(program, code, stack_limit)
+        if content is not None:
+            keep(file, content)
+    return content
+
+
+def _key(program: str, code: Path, stack_limit: int) -> str:
+    status = os.stat(program)
+    known = (program, status.st_size, status.st_mtime_ns, os.environ.get("SWI_HOME_DIR"), str(code), stack_limit)
+    seen = hashlib.sha256(repr(known).encode())
+    for source in sorted(code.glob("*.pl")):
+        seen.update(f"{source.name}\n".encode() + source.read_bytes())
+    return seen.hexdigest()[:32]
+
+
+def _made(program: str, code: Path, stack_limit: int) -> bytes | None:
+    with tempfile.TemporaryDirectory(prefix="prolepsis-state-") as folder:
+        file = Path(folder) / "state"
+        main, made = format_atom(str(code / "main.pl")), format_atom(str(file))
+        goal = f"load_files({main}, []), qsave_program({made}, [{OPTIONS}])"
+        words = [program, "-f", "none", "-O", f"--stack-limit={stack_limit}m", "--quiet", "-g", goal, "-t", "halt"]
+        silent = subprocess.DEVNULL
+        try:
+            subprocess.run(words, stdin=silent, stdout=silent, stderr=silent, timeout=MAKING_LIMIT, check=True)
+            return file.read_bytes()
+        except (OSError, subprocess.SubprocessError):
+            return None
