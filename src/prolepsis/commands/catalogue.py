@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from prolepsis.commands.kept import is_as_installed, kept
 from prolepsis.commands.output import add_command, table
 from prolepsis.terms.errors import UnknownNameError
 
@@ -30,7 +31,7 @@ DESCRIBE_EXAMPLE = """\
   prolepsis describe friction
 """
 
-Rows = Iterable[tuple[str, ...]]
+Rows = Iterable[Sequence[str]]
 
 
 def add_to(commands: Any) -> None:
@@ -50,17 +51,25 @@ def add_to(commands: Any) -> None:
 def run_list(given: argparse.Namespace) -> int:
     """Print one section, or all of them with headings."""
     if given.what:
-        print(table(SECTIONS[given.what]()))
+        print(table(_rows(given.what, is_as_installed())))
         return 0
-    for number, (section, rows) in enumerate(SECTIONS.items()):
+    as_installed = is_as_installed()
+    for number, section in enumerate(SECTIONS):
         print(("\n" if number else "") + f"{section}:")
-        print(table(rows(), indent="  "))
+        print(table(_rows(section, as_installed), indent="  "))
     return 0
+
+
+def _rows(section: str, as_installed: bool) -> Rows:
+    rows = SECTIONS[section]
+    # Examples lie outside the package.
+    return rows() if rows is _examples or not as_installed else kept(section, lambda: [list(row) for row in rows()])
 
 
 def run_describe(given: argparse.Namespace) -> int:
     """Print what is known of a name."""
-    print(describe(given.name))
+    name: str = given.name
+    print(kept(f"describe {name}", lambda: describe(name)) if is_as_installed() else describe(name))
     return 0
 
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-from importlib.metadata import version
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from prolepsis.commands import ask, catalogue, doctor, project, render, sweep, timeline
 from prolepsis.terms.errors import error_line
@@ -35,6 +34,16 @@ class _Parser(argparse.ArgumentParser):
         sys.exit(BAD_COMMAND_LINE)
 
 
+class _Version(argparse.Action):
+    """Looks the version up when it is asked for, which takes a third of the time of --help."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
+        from importlib.metadata import version
+
+        print(f"{parser.prog} {version('prolepsis')}")
+        parser.exit()
+
+
 def parser() -> argparse.ArgumentParser:
     """Return the parser of the whole command line."""
     top = _Parser(
@@ -43,7 +52,7 @@ def parser() -> argparse.ArgumentParser:
         epilog=EPILOGUE,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    top.add_argument("--version", action="version", version=f"prolepsis {version('prolepsis')}")
+    top.add_argument("--version", action=_Version, nargs=0, help="show program's version number and exit")
     commands = top.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for command in (project, ask, timeline, sweep, render, catalogue, doctor):
         command.add_to(commands)
