@@ -12,7 +12,6 @@ import subprocess
 import sys
 import warnings
 from collections.abc import Callable
-from importlib.metadata import PackageNotFoundError, requires, version
 from typing import IO, Any, cast
 
 from prolepsis.commands.output import add_command, table
@@ -70,6 +69,8 @@ def _python() -> str:
 
 
 def _packages() -> str:
+    from importlib.metadata import PackageNotFoundError, requires, version
+
     missing: list[str] = []
     for line in requires("prolepsis") or []:
         name = re.split(r"[^\w.-]", line)[0]
