@@ -16,6 +16,7 @@ from prolepsis.log.log import Log
 from prolepsis.matter.shells.breaking import Breaking
 from prolepsis.matter.shells.contact import local_stiffness
 from prolepsis.system.mujoco import mujoco
+from prolepsis.terms.errors import InputError
 
 SUBSTEPS = (6.25e-5, 1.25e-4, 2.5e-4)
 MASS = 0.059
@@ -120,6 +121,23 @@ def test_a_shell_that_is_whole_stays_as_stiff_when_another_falls_apart() -> None
     assert np.allclose(stiffness_of(state, "egg2/0"), before)
     state.join(None, [])
     assert np.allclose(stiffness_of(state, "egg2/0"), before)
+
+
+def test_a_piece_that_falls_apart_keeps_the_friction_that_it_was_given() -> None:
+    state = State.of(compile_world(scene(":floor a :Floor . :egg1 a :Egg ; :on :floor .")))
+    pieces = [state.scene.index(part.name) for part in state.scene.parts("eggshell1")]
+    state.split("egg1", [pieces[:13], pieces[13:]])
+    state.set_friction(pieces[3], 0.02)
+    state.split(state.scene.things[pieces[0]].name, [pieces[:6], pieces[6:13]])
+    geoms = [state.model.geom(f"{state.scene.things[piece].name}/0") for piece in (pieces[3], pieces[4])]
+    assert geoms[0].friction[0] == 0.02
+    assert geoms[0].priority[0] > geoms[1].priority[0]
+
+
+def test_what_something_hangs_on_by_a_joint_does_not_fall_apart() -> None:
+    state = State.of(compile_world(scene(":floor a :Floor . :bowl1 a :PaperBowl ; :on :floor .")))
+    with pytest.raises(InputError, match="bowl1 cannot fall apart: bowl1/panel0, .* hangs on it by a joint"):
+        state.split("bowl1", [[state.scene.index("bowl1")]])
 
 
 def stiffness_of(state: State, name: str) -> FloatArray:

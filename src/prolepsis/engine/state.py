@@ -21,6 +21,7 @@ from prolepsis.scene.running import ContactForces, PointJoint
 from prolepsis.scene.scene import Scene
 from prolepsis.system.mujoco import mujoco
 from prolepsis.system.seeds import child_of
+from prolepsis.terms.errors import InputError, brief_list
 
 FEW_CONTACTS = 16
 """Up to so many contacts, plain lists are faster than arrays."""
@@ -54,6 +55,8 @@ class State:
     """MuJoCo's warnings before the model was last rebuilt."""
     attributes: dict[tuple[str, str], float] = field(default_factory=dict[tuple[str, str], float])
     """What controllers have changed: (thing, attribute) to its value."""
+    frictions: dict[int, float] = field(default_factory=dict[int, float])
+    """Friction of the things that have been given another one, by index [1]."""
     particles: ParticleState | None = None
     """The particles of all liquids, if there are any."""
     joining: Joining = field(default_factory=Joining)
@@ -127,6 +130,7 @@ class State:
     def set_friction(self, index: int, friction: float) -> None:
         """Give a thing's surface another sliding friction [1], for the rest of the run."""
         thing = self.scene.things[index]
+        self.frictions[index] = friction
         for k in range(len(thing.shape.geoms)):
             name = f"{thing.name}/{k}"
             kept, now = self.spec.geom(name), self.model.geom(name)
@@ -265,8 +269,14 @@ class State:
         Args:
             body_name: The body that falls apart.
             fragments: The things that each new body consists of; the first gives it its name and frame.
+
+        Raises:
+            InputError: If another body hangs on it by a joint, which would be lost.
         """
         things = self.scene.things
+        hanging = [body.name for body in self.spec.body(body_name).bodies]
+        if hanging:
+            raise InputError(f"{body_name} cannot fall apart: {brief_list(hanging)} hangs on it by a joint")
         old = self.data.body(body_name)
         origin, orientation = old.xpos.copy(), old.xquat.copy()
         velocity = self._twist(body_name)
@@ -309,6 +319,9 @@ class State:
             joint.qpos[:] = pose
             joint.qvel[:3] = velocity[3:] + np.cross(velocity[:3], pose[:3] - origin)
             joint.qvel[3:] = rotated(inverse(quaternion(pose[3:])), triple(velocity[:3]))
+        for i in poses:
+            if i in self.frictions:
+                self.set_friction(i, self.frictions[i])
         mujoco.mj_forward(self.model, self.data)
 
     def join(self, source: object, joints: Sequence[PointJoint]) -> list[int]:
