@@ -24,6 +24,7 @@ from prolepsis.log.things import Thing
 from prolepsis.programs.program import Program
 from prolepsis.robots.commands import Begin, Command, End, Sense
 from prolepsis.robots.control import Controls
+from prolepsis.scene.kind import Controller
 from prolepsis.scene.running import MAX_STEP, TICK
 from prolepsis.system.mujoco import mujoco
 from prolepsis.system.threads import one_thread
@@ -75,6 +76,10 @@ def simulate(
     going = [controller for kind in world.scene.kinds for controller in kind.start(state)]
     for each in going:
         each.bind(state)
+    # Most controllers leave most of it to others.
+    beginning, stepping, looking, working, ending = (
+        _having(going, step) for step in ("begin_tick", "longest_step", "is_steady", "act", "end_tick")
+    )
     controls = Controls.of(state)
     recorder = Recorder()
     frames = Frames()
@@ -109,12 +114,12 @@ def simulate(
         frames.tick(state, tick)
         channels.tick(state)
 
-        for each in going:
+        for each in beginning:
             each.begin_tick(state)
-        step = min((each.longest_step(state) for each in going), default=MAX_STEP)
+        step = min([MAX_STEP, *(each.longest_step(state) for each in stepping)])
         count = math.ceil(TICK / min(step, max_step) - 1e-9)
         state.model.opt.timestep = TICK / count
-        together = count if all(each.is_steady() for each in going) else 1
+        together = count if all([each.is_steady() for each in looking]) else 1
         for _ in range(count // together):
             # Physics step.
             mujoco.mj_step(state.model, state.data, together)
@@ -122,7 +127,7 @@ def simulate(
                 _refuse(state, tick)
             recorder.substep(state, tick, TICK * together / count)
             # Matter, in its one order.
-            for acting in going:
+            for acting in working:
                 version, splits = state.version, state.splits
                 acting.act(state)
                 if state.version != version:
@@ -138,7 +143,7 @@ def simulate(
                     break
         if state.warnings or int(state.data.warning.number.sum()):
             _refuse(state, tick)
-        for each in going:
+        for each in ending:
             each.end_tick(state)
         controls.measure(state)
         tick += 1
@@ -163,6 +168,12 @@ def simulate(
         particles=particles,
         gravity=world.scene.gravity,
     )
+
+
+def _having(going: Sequence[Controller], step: str) -> list[Controller]:
+    """Return the controllers that do something at a step, in their order."""
+    nothing: object = getattr(Controller, step)
+    return [each for each in going if getattr(type(each), step) is not nothing]
 
 
 def _sense(state: State, controls: Controls, time: float) -> Sense:
