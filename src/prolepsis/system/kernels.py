@@ -71,8 +71,10 @@ class _Kept:
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """Return the kernel compiled for a signature, or None."""
         from numba.core.compiler import CompileResult  # pyright: ignore[reportMissingTypeStubs]
+        from numba.core.runtime.nrt import rtsys  # pyright: ignore[reportMissingTypeStubs]
 
-        target_context.refresh()
+        # What is compiled needs numba's memory, but not its declarations, which take most of the time to load.
+        cast(Any, rtsys).initialize(target_context)
         content = read_kept(self._file(sig, target_context.codegen()))
         # Its seal has been checked; nothing else may come here.
         return None if content is None else cast(Any, CompileResult)._rebuild(target_context, *pickle.loads(content))
