@@ -157,11 +157,11 @@ class PrologProcess:
         ]
         if state is not None:
             saved = self.folder / STATE
-            saved.write_bytes(state)
             try:
+                saved.write_bytes(state)
                 self._launch(program, walls, ["-x", str(saved)])
                 return
-            except MissingToolError:
+            except (MissingToolError, OSError):
                 pass
         self._launch(program, walls, files)
 

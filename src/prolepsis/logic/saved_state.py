@@ -8,6 +8,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+from prolepsis.logic.confinement.start import KEPT_VARIABLES
 from prolepsis.system.cache import cache_root, keep, read_kept
 from prolepsis.terms.terms import format_atom
 
@@ -41,7 +42,8 @@ def saved_state(program: str, code: Path, stack_limit: int) -> bytes | None:
 
 def _key(program: str, code: Path, stack_limit: int) -> str:
     status = os.stat(program)
-    known = (program, status.st_size, status.st_mtime_ns, os.environ.get("SWI_HOME_DIR"), str(code), stack_limit)
+    surroundings = [os.environ.get(name) for name in KEPT_VARIABLES]
+    known = (program, status.st_size, status.st_mtime_ns, surroundings, str(code), stack_limit)
     seen = hashlib.sha256(repr(known).encode())
     for source in sorted(code.glob("*.pl")):
         seen.update(f"{source.name}\n".encode() + source.read_bytes())
@@ -54,9 +56,13 @@ def _made(program: str, code: Path, stack_limit: int) -> bytes | None:
         main, made = format_atom(str(code / "main.pl")), format_atom(str(file))
         goal = f"load_files({main}, []), qsave_program({made}, [{OPTIONS}])"
         words = [program, "-f", "none", "-O", f"--stack-limit={stack_limit}m", "--quiet", "-g", goal, "-t", "halt"]
+        kept = {name: os.environ[name] for name in KEPT_VARIABLES if name in os.environ}
+        environment = {**kept, "LANG": "C.UTF-8", "HOME": folder, "TMPDIR": folder}
         silent = subprocess.DEVNULL
         try:
-            subprocess.run(words, stdin=silent, stdout=silent, stderr=silent, timeout=MAKING_LIMIT, check=True)
+            subprocess.run(
+                words, env=environment, stdin=silent, stdout=silent, stderr=silent, timeout=MAKING_LIMIT, check=True
+            )
             return file.read_bytes()
         except (OSError, subprocess.SubprocessError):
             return None
