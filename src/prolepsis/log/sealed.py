@@ -15,7 +15,6 @@ import stat
 import warnings
 from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, cast
 
@@ -157,6 +156,8 @@ def _plain(value: Any) -> Any:
 
 
 def _versions() -> Mapping[str, str]:
+    from importlib.metadata import PackageNotFoundError, version
+
     def known(package: str) -> str:
         try:
             return version(package)
