@@ -25,7 +25,8 @@ def is_as_installed() -> bool:
 
 def kept(what: str, make: Callable[[], Told]) -> Told:
     """Return what ``make`` returns, or what it returned when the package was as it is now."""
-    key = hashlib.sha256(f"{what}\n".encode() + repr([*_package()]).encode()).hexdigest()[:32]
+    # A name from the command line may hold what is no letter in the user's encoding.
+    key = hashlib.sha256(ascii((what, [*_package()])).encode()).hexdigest()[:32]
     file = cache_root() / "told" / key
     content = read_kept(file)
     if content is not None:
