@@ -183,7 +183,9 @@ def touch_surfaces(
     for f in range(frame_count):
         pose = poses[f]
         first, last = max(f - 1, 0), min(f + 1, frame_count - 1)
-        still = (poses[first] == poses[last]).all()
+        still = True
+        for k in range(poses.shape[1]):
+            still = still and poses[first, k] == poses[last, k]
         travel = rest_speed * max((tick[last] - tick[first]) * dt, 1e-9)
         ux, uy, uz = _turned_back(pose, up[0], up[1], up[2])
         near = 0

@@ -237,7 +237,9 @@ def keep_outside(
         for f in range(before.seen[i]):
             if _ahead(before, i, f, velocity, dt) <= 1.2 * least:
                 begin[f * body_count + before.body[i, f] + 1] += 1
-    begin = begin.cumsum()
+    # Sums of numpy's would load numba's linear algebra, and with it scipy's, in each process.
+    for k in range(1, len(begin)):
+        begin[k] += begin[k - 1]
     total, filled = begin[-1], begin.copy()
     which, ahead = np.empty(total, dtype=np.int64), np.empty(total)
     for i in range(len(position)):
