@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
-import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import TypeVar, cast
 
-from prolepsis.system.cache import cache_root, keep, read_kept
+from prolepsis.system.cache import cache_root, kept_or_made
+from prolepsis.system.sources import digest_of
 
 DECLARING = ("prolepsis.fluents", "prolepsis.programs", "prolepsis.knowledge", "prolepsis.matter")
 """Rooms in which things are declared; a program that has imported one may have declared more by itself."""
@@ -25,24 +25,13 @@ def is_as_installed() -> bool:
 
 def kept(what: str, make: Callable[[], Told]) -> Told:
     """Return what ``make`` returns, or what it returned when the package was as it is now."""
-    # A name from the command line may hold what is no letter in the user's encoding.
-    key = hashlib.sha256(ascii((what, [*_package()])).encode()).hexdigest()[:32]
-    file = cache_root() / "told" / key
-    content = read_kept(file)
-    if content is not None:
-        return cast(Told, json.loads(content))
-    told = make()
-    keep(file, json.dumps(told).encode())
-    return told
+    file = cache_root() / "told" / digest_of((what, _package()), ())[:32]
+    content = kept_or_made(file, lambda: json.dumps(make()).encode())
+    assert content is not None
+    return cast(Told, json.loads(content))
 
 
-def _package() -> Iterator[tuple[str, int, int]]:
-    """Yield path, size and time of the last change of each file of the package."""
-    folders = [str(Path(__file__).resolve().parents[1])]
-    while folders:
-        for entry in sorted(os.scandir(folders.pop()), key=lambda each: each.path):
-            if entry.is_dir():
-                folders += [] if entry.name == "__pycache__" else [entry.path]
-            else:
-                status = entry.stat()
-                yield entry.path, status.st_size, status.st_mtime_ns
+@cache
+def _package() -> str:
+    package = Path(__file__).resolve().parents[1]
+    return digest_of((), (file for suffix in ("py", "ttl") for file in package.rglob(f"*.{suffix}")))

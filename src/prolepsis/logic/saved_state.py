@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 import subprocess
 import tempfile
 from pathlib import Path
 
 from prolepsis.logic.confinement.start import KEPT_VARIABLES
-from prolepsis.system.cache import cache_root, keep, read_kept
+from prolepsis.system.cache import cache_root, kept_or_made
+from prolepsis.system.sources import digest_of
 from prolepsis.terms.terms import format_atom
 
 OPTIONS = "class(development), autoload(false), stand_alone(false), foreign(no_save), goal(serve), toplevel(halt)"
@@ -32,22 +32,14 @@ def saved_state(program: str, code: Path, stack_limit: int) -> bytes | None:
         None if this Prolog cannot make one.
     """
     file = cache_root() / "prolog" / _key(program, code, stack_limit)
-    content = read_kept(file)
-    if content is None:
-        content = _made(program, code, stack_limit)
-        if content is not None:
-            keep(file, content)
-    return content
+    return kept_or_made(file, lambda: _made(program, code, stack_limit))
 
 
 def _key(program: str, code: Path, stack_limit: int) -> str:
     status = os.stat(program)
     surroundings = [os.environ.get(name) for name in KEPT_VARIABLES]
     known = (program, status.st_size, status.st_mtime_ns, surroundings, str(code), stack_limit)
-    seen = hashlib.sha256(repr(known).encode())
-    for source in sorted(code.glob("*.pl")):
-        seen.update(f"{source.name}\n".encode() + source.read_bytes())
-    return seen.hexdigest()[:32]
+    return digest_of(known, code.glob("*.pl"))[:32]
 
 
 def _made(program: str, code: Path, stack_limit: int) -> bytes | None:

@@ -11,6 +11,7 @@ import os
 import stat
 import sys
 import tempfile
+from collections.abc import Callable
 from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
@@ -67,6 +68,16 @@ def keep(file: Path, content: bytes) -> None:
             f"{file.parent}: nothing can be kept there ({error.strerror}), so what takes long is computed at each run;"
             " XDG_CACHE_HOME names another folder"
         )
+
+
+def kept_or_made(file: Path, make: Callable[[], bytes | None]) -> bytes | None:
+    """Return what was kept in a file, or what ``make`` returns, which is kept for the next time unless it is None."""
+    content = read_kept(file)
+    if content is None:
+        content = make()
+        if content is not None:
+            keep(file, content)
+    return content
 
 
 def note(text: str) -> None:

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from prolepsis.system.cache import cache_root, keep, read_kept
+from prolepsis.system.sources import digest_of
 
 ROOMS = ("geometry", "fluents", "matter/liquids", "report", "scene/shapes")
 """Folders of the package that have kernels or kept arrays, with what is below them."""
@@ -110,11 +111,8 @@ def are_kept() -> bool:
 def sources_digest() -> str:
     """Return a digest of the sources of kernels and kept arrays, and of the versions of what computes them."""
     package = Path(__file__).parent.parent
-    digest = hashlib.sha256(repr((sys.version_info, [version(name) for name in MADE_BY])).encode())
-    for room in ROOMS:
-        for file in sorted((package / room).rglob("*.py")):
-            digest.update(file.read_bytes())
-    return digest.hexdigest()
+    made_by = sys.version_info, [version(name) for name in MADE_BY]
+    return digest_of(made_by, (file for room in ROOMS for file in (package / room).rglob("*.py")))
 
 
 def _folder() -> Path:
