@@ -14,16 +14,10 @@ from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class _Push:
     bodies: IntArray
-    """MuJoCo bodies, shape (k,)."""
+    """MuJoCo bodies, each once, shape (k,)."""
     wrenches: FloatArray
     """Force [N] and torque about the centre of mass [N m] on each, world frame, shape (k, 6)."""
     passes_on: bool
-
-    def on(self, count: int) -> FloatArray:
-        """Return the sum on each of ``count`` bodies, shape (count, 6)."""
-        total = np.zeros((count, 6))
-        np.add.at(total, self.bodies, self.wrenches)
-        return total
 
 
 @dataclass(kw_only=True)
@@ -35,7 +29,9 @@ class Pushes:
     def put(self, source: object, data: Any, bodies: IntArray, wrenches: FloatArray, *, passes_on: bool) -> None:
         """Take what a source pushes from now on in place of what it pushed, and bring the sum into the data."""
         self._by[source] = _Push(bodies=bodies.copy(), wrenches=wrenches.copy(), passes_on=passes_on)
-        data.xfrc_applied[:] = sum(each.on(len(data.xfrc_applied)) for each in self._by.values())
+        data.xfrc_applied[:] = 0.0
+        for each in self._by.values():
+            data.xfrc_applied[each.bodies] += each.wrenches
 
     @property
     def drive(self) -> bool:

@@ -63,6 +63,7 @@ class State:
     """What kinds hold together."""
     pushes: Pushes = field(default_factory=Pushes)
     """What kinds push now."""
+    _body_names: list[str] = field(default_factory=list[str])
     _body_of_geom: list[int] = field(default_factory=list[int])
     _bodies_version: int = -1
     _forces: list[tuple[int, int, int, float]] = field(default_factory=list[tuple[int, int, int, float]])
@@ -107,7 +108,10 @@ class State:
     def refresh(self) -> None:
         """Bring the map from bodies to things up to date after the model has changed."""
         index = {thing.name: i for i, thing in enumerate(self.scene.things)}
-        self.body_thing = np.array([index.get(name, -1) for name in _body_names(self.model)])
+        names = [self.model.body(body).name for body in range(self.model.nbody)]
+        self.body_thing = np.array([index.get(name, -1) for name in names])
+        self.pushes.bind(self._body_names, names)
+        self._body_names = names
 
     def report(self, happening: Happening) -> None:
         """Tell the log that something has happened in this tick, which a kind has declared."""
@@ -367,9 +371,7 @@ class State:
         points = self.joining.points(self.model)
         pairs = [self.model.pair(number) for number in range(self.model.npair)]
         contacts = {each.name: (each.solref.copy(), each.solimp.copy(), each.margin.copy()) for each in pairs}
-        before = _body_names(self.model)
         self.model, self.data = self.spec.recompile(self.model, self.data)
-        self.pushes.bind(before, _body_names(self.model))
         # Compiling puts the second point where it would be in the first posture, which may be centimetres off.
         for known in self.spec.equalities:
             if known.name in points:
@@ -381,10 +383,6 @@ class State:
                 now.solref[:], now.solimp[:], now.margin[:] = contacts[known.name]
         self.version += 1
         self.refresh()
-
-
-def _body_names(model: Any) -> list[str]:
-    return [model.body(body).name for body in range(model.nbody)]
 
 
 def _carrier(things: Sequence[Thing], index: Mapping[str, int], i: int) -> int:
