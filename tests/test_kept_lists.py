@@ -48,3 +48,10 @@ def test_lists_are_those_of_the_package_as_it_is(tmp_path: Path) -> None:
     assert told(source, cache, "-m", "prolepsis", "describe", "purple") == told(
         source, cache, "-m", "prolepsis", "describe", "purple"
     )
+
+
+def test_what_is_told_without_docstrings_is_not_kept_for_others(tmp_path: Path) -> None:
+    source = Path(prolepsis.__file__).parents[1]
+    words = ("-m", "prolepsis", "list", "fluents")
+    bare, full = told(source, tmp_path, "-OO", *words), told(source, tmp_path, *words)
+    assert len(full) > len(bare)

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
+import tempfile
 from pathlib import Path
 
 import pytest
@@ -43,18 +46,18 @@ def test_other_files_or_another_program_make_another(cache: Path, tmp_path: Path
     code.mkdir()
     (code / "main.pl").write_text("serve.\n")
     program = process._program()  # pyright: ignore[reportPrivateUsage]
-    first = saved_state(program, code, STACK_LIMIT)
+    first = saved_state(program, code, STACK_LIMIT, tmp_path)
     assert first is not None
-    assert saved_state(program, code, STACK_LIMIT) == first
+    assert saved_state(program, code, STACK_LIMIT, tmp_path) == first
     (code / "main.pl").write_text("serve :- true.\n")
-    saved_state(program, code, STACK_LIMIT)
-    saved_state(program, code, STACK_LIMIT + 1)
+    saved_state(program, code, STACK_LIMIT, tmp_path)
+    saved_state(program, code, STACK_LIMIT + 1, tmp_path)
     assert len([*cache.iterdir()]) == 3
 
 
 @pytest.mark.parametrize("state", [None, b"", b"no state", os.urandom(5000)])
 def test_without_one_it_starts_from_its_files(state: bytes | None, monkeypatch: pytest.MonkeyPatch) -> None:
-    def given(program: str, code: Path, stack_limit: int) -> bytes | None:
+    def given(program: str, code: Path, stack_limit: int, folder: Path) -> bytes | None:
         return state
 
     monkeypatch.setattr(process, "saved_state", given)
@@ -65,4 +68,19 @@ def test_a_prolog_that_makes_none_is_no_error(tmp_path: Path) -> None:
     program = tmp_path / "swipl"
     program.write_text("#!/bin/sh\nexit 1\n")
     program.chmod(0o700)
-    assert saved_state(str(program), tmp_path, STACK_LIMIT) is None
+    assert saved_state(str(program), tmp_path, STACK_LIMIT, tmp_path) is None
+
+
+def test_it_leaves_nothing_when_the_program_is_killed_while_it_is_made(monkeypatch: pytest.MonkeyPatch) -> None:
+    run = "from prolepsis.logic.process import PrologProcess; PrologProcess().close()"
+    stuck = f"import subprocess; subprocess.run = lambda *_, **__: input(print('making', flush=True)); {run}"
+    # A path that is short enough for a socket.
+    with tempfile.TemporaryDirectory(dir="/tmp") as temporary:
+        monkeypatch.setenv("TMPDIR", temporary)
+        with subprocess.Popen([sys.executable, "-c", stuck], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as killed:
+            assert killed.stdout is not None
+            assert killed.stdout.readline() == b"making\n"
+            killed.kill()
+        assert os.listdir(temporary)
+        subprocess.run([sys.executable, "-c", run], check=True)
+        assert not os.listdir(temporary)

@@ -25,7 +25,9 @@ def is_as_installed() -> bool:
 
 def kept(what: str, make: Callable[[], Told]) -> Told:
     """Return what ``make`` returns, or what it returned when the package was as it is now."""
-    file = cache_root() / "told" / digest_of((what, _package()), ())[:32]
+    # Without docstrings (-OO), or with those of another Python, it tells something else.
+    python = sys.version_info[:2], sys.flags.optimize
+    file = cache_root() / "told" / digest_of((what, python, _package()), ())[:32]
     content = kept_or_made(file, lambda: json.dumps(make()).encode())
     assert content is not None
     return cast(Told, json.loads(content))

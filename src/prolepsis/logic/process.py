@@ -125,7 +125,7 @@ class PrologProcess:
         walls = offered()
         missing = walls.missing
         # A system whose libraries stand elsewhere than the walls let be read starts with fewer.
-        state = saved_state(program, PROLOG_FILES, STACK_LIMIT)
+        state = saved_state(program, PROLOG_FILES, STACK_LIMIT, self.folder)
         for fewer in (walls, Walls(calls=walls.calls), Walls()):
             try:
                 self._launch_from(program, fewer, state)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import subprocess
-import tempfile
 from pathlib import Path
 
 from prolepsis.logic.confinement.start import KEPT_VARIABLES
@@ -18,7 +17,7 @@ MAKING_LIMIT = 60.0
 """Longest time for making it [s]; it takes half a second."""
 
 
-def saved_state(program: str, code: Path, stack_limit: int) -> bytes | None:
+def saved_state(program: str, code: Path, stack_limit: int, folder: Path) -> bytes | None:
     """Return the saved state of a Prolog that has loaded ``main.pl``, made now if it has not been kept.
 
     It begins with ``serve``. A Prolog that starts from a state goes by the options with which that was made.
@@ -27,12 +26,13 @@ def saved_state(program: str, code: Path, stack_limit: int) -> bytes | None:
         program: Path of ``swipl``.
         code: Folder of the Prolog files.
         stack_limit: Memory that one query may use for terms [MB].
+        folder: Where it is made: whoever clears that after a kill clears what was half made, too.
 
     Returns:
         None if this Prolog cannot make one.
     """
     file = cache_root() / "prolog" / _key(program, code, stack_limit)
-    return kept_or_made(file, lambda: _made(program, code, stack_limit))
+    return kept_or_made(file, lambda: _made(program, code, stack_limit, folder))
 
 
 def _key(program: str, code: Path, stack_limit: int) -> str:
@@ -42,19 +42,20 @@ def _key(program: str, code: Path, stack_limit: int) -> str:
     return digest_of(known, code.glob("*.pl"))[:32]
 
 
-def _made(program: str, code: Path, stack_limit: int) -> bytes | None:
-    with tempfile.TemporaryDirectory(prefix="prolepsis-state-") as folder:
-        file = Path(folder) / "state"
-        main, made = format_atom(str(code / "main.pl")), format_atom(str(file))
-        goal = f"load_files({main}, []), qsave_program({made}, [{OPTIONS}])"
-        words = [program, "-f", "none", "-O", f"--stack-limit={stack_limit}m", "--quiet", "-g", goal, "-t", "halt"]
-        kept = {name: os.environ[name] for name in KEPT_VARIABLES if name in os.environ}
-        environment = {**kept, "LANG": "C.UTF-8", "HOME": folder, "TMPDIR": folder}
-        silent = subprocess.DEVNULL
-        try:
-            subprocess.run(
-                words, env=environment, stdin=silent, stdout=silent, stderr=silent, timeout=MAKING_LIMIT, check=True
-            )
-            return file.read_bytes()
-        except (OSError, subprocess.SubprocessError):
-            return None
+def _made(program: str, code: Path, stack_limit: int, folder: Path) -> bytes | None:
+    file = folder / "making"
+    main, made = format_atom(str(code / "main.pl")), format_atom(str(file))
+    goal = f"load_files({main}, []), qsave_program({made}, [{OPTIONS}])"
+    words = [program, "-f", "none", "-O", f"--stack-limit={stack_limit}m", "--quiet", "-g", goal, "-t", "halt"]
+    kept = {name: os.environ[name] for name in KEPT_VARIABLES if name in os.environ}
+    environment = {**kept, "LANG": "C.UTF-8", "HOME": str(folder), "TMPDIR": str(folder)}
+    silent = subprocess.DEVNULL
+    try:
+        subprocess.run(
+            words, env=environment, stdin=silent, stdout=silent, stderr=silent, timeout=MAKING_LIMIT, check=True
+        )
+        return file.read_bytes()
+    except (OSError, subprocess.SubprocessError):
+        return None
+    finally:
+        file.unlink(missing_ok=True)
