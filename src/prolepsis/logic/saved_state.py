@@ -6,7 +6,7 @@ import os
 import subprocess
 from pathlib import Path
 
-from prolepsis.logic.confinement.start import KEPT_VARIABLES
+from prolepsis.logic.confinement.start import KEPT_VARIABLES, home_of
 from prolepsis.system.cache import cache_root, kept_or_made
 from prolepsis.system.sources import digest_of
 from prolepsis.terms.terms import format_atom
@@ -36,10 +36,13 @@ def saved_state(program: str, code: Path, stack_limit: int, folder: Path) -> byt
 
 
 def _key(program: str, code: Path, stack_limit: int) -> str:
-    status = os.stat(program)
     surroundings = [os.environ.get(name) for name in KEPT_VARIABLES]
-    known = (program, status.st_size, status.st_mtime_ns, surroundings, str(code), stack_limit)
-    return digest_of(known, code.glob("*.pl"))[:32]
+    # A state holds Prolog's own libraries, too, which may be mended without the program.
+    homes = [Path(home) for home in home_of(program)]
+    own = [Path(program).resolve(), *(file for home in homes for file in home.glob("library/**/*.pl"))]
+    own += [home / "boot.prc" for home in homes]
+    seen = [(str(file), status.st_size, status.st_mtime_ns) for file in sorted(own) for status in [file.stat()]]
+    return digest_of((seen, surroundings, str(code), stack_limit), code.glob("*.pl"))[:32]
 
 
 def _made(program: str, code: Path, stack_limit: int, folder: Path) -> bytes | None:

@@ -131,10 +131,10 @@ def _limit(kind: int, most: int) -> None:
 
 def _readable(program: str, code: str, library_path: str) -> list[str]:
     named = [str(file) for path in library_path.split(":") if path for file in Path(path).glob("*.so*")]
-    return [*LIBRARIES, *SYSTEM_FILES, *COMPUTING, *_home(program), code, *named[:MOST_LIBRARIES]]
+    return [*LIBRARIES, *SYSTEM_FILES, *COMPUTING, *home_of(program), code, *named[:MOST_LIBRARIES]]
 
 
-def _home(program: str) -> list[str]:
+def home_of(program: str) -> list[str]:
     """Return the folder of Prolog's own libraries: the nearest one about the program that holds its boot file."""
     named = [Path(folder) for folder in [os.environ.get("SWI_HOME_DIR")] if folder]
     for folder in (*named, *Path(program).resolve().parents):
