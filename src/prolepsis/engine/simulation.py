@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from prolepsis.engine.binding import Binding
 from prolepsis.engine.channels import Channels, chosen_channels
 from prolepsis.engine.crossing import crossings
 from prolepsis.engine.gaining import Surroundings, gains
@@ -74,8 +75,8 @@ def simulate(
     state = State.of(world, seed)
     things = world.scene.things
     going = [controller for kind in world.scene.kinds for controller in kind.start(state)]
-    for each in going:
-        each.bind(state)
+    binding = Binding(state=state, going=going)
+    binding.renew()
     # Most controllers leave most of it to others.
     beginning, stepping, looking, working, ending = (
         _having(going, step) for step in ("begin_tick", "longest_step", "is_steady", "act", "end_tick")
@@ -88,6 +89,14 @@ def simulate(
     actions: list[Action] = []
     behaviour = program.start(_sense(state, controls, 0.0))
     ended_at: int | None = None
+
+    def renewed() -> bool:
+        if not binding.renew():
+            return False
+        recorder.note_version(state)
+        controls.bind(state)
+        return True
+
     tick = 0
     while True:
         if duration is not None:
@@ -116,6 +125,7 @@ def simulate(
 
         for each in beginning:
             each.begin_tick(state)
+            renewed()
         step = min([MAX_STEP, *(each.longest_step(state) for each in stepping)])
         count = math.ceil(TICK / min(step, max_step) - 1e-9)
         state.model.opt.timestep = TICK / count
@@ -128,23 +138,16 @@ def simulate(
             recorder.substep(state, tick, TICK * together / count)
             # Matter, in its one order.
             for acting in working:
-                version, splits = state.version, state.splits
                 acting.act(state)
-                if state.version != version:
-                    if state.splits != splits:
-                        for each in going:
-                            each.rejoin(state)
-                    for each in going:
-                        each.bind(state)
+                if renewed():
                     state.model.opt.timestep = TICK / count
-                    recorder.note_version(state)
-                    controls.bind(state)
                     # The forces are now those of the rebuilt model, which no step has used and no row holds yet.
                     break
         if state.warnings or int(state.data.warning.number.sum()):
             _refuse(state, tick)
         for each in ending:
             each.end_tick(state)
+            renewed()
         controls.measure(state)
         tick += 1
         state.tick = tick
