@@ -59,8 +59,8 @@ class Surroundings:
 
     contacts: Contacts
     """Between things."""
-    joints: Joints
-    """What stuck to what."""
+    joints: Sequence[Joints]
+    """What was told to stick to what, and what joints held."""
     wet: BoolArray
     """Whether a liquid pushed each, shape (T, n); of no rows without liquids."""
     driven: BoolArray
@@ -268,9 +268,9 @@ def gains(
 
 def _pairs(around: Surroundings) -> IntArray:
     """Return tick and both things of what touches or sticks, by ticks, shape (R, 3)."""
-    contacts, joints = around.contacts, around.joints
+    contacts = around.contacts
     table = [np.stack([contacts.tick, contacts.a, contacts.b], axis=1)]
-    rows = np.stack([joints.a, joints.b, joints.start, joints.end], axis=1)
+    rows = np.concatenate([np.stack([each.a, each.b, each.start, each.end], axis=1) for each in around.joints])
     for a, b, start, end in rows.tolist():
         table.append(np.array([(tick, a, b) for tick in range(start, end)], dtype=np.int64).reshape(-1, 3))
     found = np.concatenate(table)

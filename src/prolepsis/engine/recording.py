@@ -5,6 +5,7 @@ It reads the simulation and changes nothing in it.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -20,6 +21,7 @@ from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.log import Contacts, Joints, Particles
 from prolepsis.log.particle_tables import rounded
 from prolepsis.scene.particles import PERIOD, ParticleState
+from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.errors import InputError, brief_list
 
 
@@ -52,6 +54,10 @@ class Recorder:
         default_factory=dict[tuple[int, int], list[tuple[int, int]]]
     )
     """What stuck to what, from which tick to before which."""
+    held: dict[tuple[int, int], list[tuple[int, int]]] = field(
+        default_factory=dict[tuple[int, int], list[tuple[int, int]]]
+    )
+    """What joints at points held to what, told or not, likewise."""
     wet: list[tuple[BoolArray, FloatArray]] = field(default_factory=list["tuple[BoolArray, FloatArray]"])
     """Whether a liquid pushes each body, and what each weighs [kg], at each tick of a run with liquids."""
     driven: dict[int, BoolArray] = field(default_factory=dict[int, BoolArray])
@@ -103,10 +109,8 @@ class Recorder:
     def tick(self, state: State) -> None:
         """Copy the poses at the start of a tick."""
         state.renew_poses()
-        for pair in state.joints:
-            now, runs = len(self.poses), self.joints.setdefault(pair, [])
-            start = runs.pop()[0] if runs and runs[-1][1] == now else now
-            runs.append((start, now + 1))
+        _go_on(self.joints, state.joints, len(self.poses))
+        _go_on(self.held, _held(state), len(self.poses))
         if state.particles is not None:
             self.wet.append((state.pushes.on(state.model.nbody, passes_on=True), state.model.body_mass.copy()))
         if state.pushes.drive:
@@ -151,7 +155,12 @@ class Recorder:
         for tick, pushed in self.driven.items():
             driven[tick] = pushed[self.versions[self.poses[tick][0]].body_of]
         return Surroundings(
-            contacts=contacts, joints=self.joint_columns(), wet=wet, driven=driven, mass=mass, particles=particles
+            contacts=contacts,
+            joints=(_joints(self.joints), _joints(self.held)),
+            wet=wet,
+            driven=driven,
+            mass=mass,
+            particles=particles,
         )
 
     def pose_columns(self) -> tuple[FloatArray, IntArray]:
@@ -181,9 +190,7 @@ class Recorder:
 
     def joint_columns(self) -> Joints:
         """Return one row for each time that two things stuck together."""
-        rows = sorted((start, end, *pair) for pair, runs in self.joints.items() for start, end in runs)
-        start, end, a, b = np.array(rows, dtype=np.int64).reshape(-1, 4).T
-        return Joints(a=a, b=b, start=start, end=end)
+        return _joints(self.joints)
 
     def contact_columns(self, dt: float) -> Contacts:
         """Return one row for each pair of geoms and tick: forces averaged over the tick of length ``dt`` [s]."""
@@ -247,6 +254,30 @@ class Recorder:
             point=summed(point[keep], weight) / total[:, None],
             peak=peak,
         )
+
+
+def _held(state: State) -> Iterable[tuple[int, int]]:
+    """Return the things whose bodies active constraints hold together, whether or not that was told."""
+    model = state.model
+    if not model.neq:
+        return ()
+    active = (state.data.eq_active > 0) & (model.eq_objtype == int(mujoco.mjtObj.mjOBJ_BODY))
+    pairs = state.body_thing[np.stack([model.eq_obj1id[active], model.eq_obj2id[active]], axis=1)]
+    return sorted({(a, b) for a, b in pairs.tolist() if a >= 0 and b >= 0})
+
+
+def _go_on(known: dict[tuple[int, int], list[tuple[int, int]]], pairs: Iterable[tuple[int, int]], now: int) -> None:
+    """Note the pairs of a tick: those of the tick before go on."""
+    for pair in pairs:
+        runs = known.setdefault(pair, [])
+        start = runs.pop()[0] if runs and runs[-1][1] == now else now
+        runs.append((start, now + 1))
+
+
+def _joints(known: dict[tuple[int, int], list[tuple[int, int]]]) -> Joints:
+    rows = sorted((start, end, *pair) for pair, runs in known.items() for start, end in runs)
+    start, end, a, b = np.array(rows, dtype=np.int64).reshape(-1, 4).T
+    return Joints(a=a, b=b, start=start, end=end)
 
 
 @dataclass(kw_only=True)
