@@ -45,7 +45,7 @@ class Lifter(Controller):
 class Lifting(Kind):
     """The kind of what some lifters do."""
 
-    def __init__(self, *lifters: Lifter) -> None:
+    def __init__(self, *lifters: Controller) -> None:
         self.lifters = lifters
 
     def start(self, state: Running) -> Sequence[Controller]:
@@ -90,3 +90,31 @@ def test_a_push_goes_on_when_the_model_is_rebuilt() -> None:
     late = (log.contacts.a == pair[0]) & (log.contacts.b == pair[1]) & (log.contacts.tick >= 350)
     borne = np.abs(log.contacts.force[late, 2]).sum() / 50
     assert borne == pytest.approx(0.1 * G - 0.9, rel=0.05)
+
+
+class Spring(Controller):
+    """Pulls two things together as a spring does."""
+
+    def __init__(self, stiffness: float, length: float) -> None:
+        self.stiffness, self.length = stiffness, length
+
+    def is_steady(self) -> bool:
+        return False
+
+    def act(self, state: Running) -> None:
+        state.renew_poses(centres=True)
+        bodies = np.array([state.model.body(name).id for name in ("b", "c")])
+        force = self.stiffness * (state.data.xipos[bodies[1], 0] - state.data.xipos[bodies[0], 0] - self.length)
+        state.push(self, bodies, np.array([[force, 0, 0, 0, 0, 0], [-force, 0, 0, 0, 0, 0]]))
+
+
+@pytest.mark.parametrize("step", [1.0e-3, 0.5e-3])
+def test_a_spring_keeps_its_energy_at_any_substep(step: float) -> None:
+    stiffness, mass = 40.0, 0.1
+    known = scene(":floor a :Floor . :b a :Block ; :mass 0.1 ; :z 9.0 . :c a :Block ; :mass 0.1 ; :x 0.35 ; :z 9.0 .")
+    world = compile_world(replace(known, kinds=(*known.kinds, Lifting(Spring(stiffness, 0.3)))))
+    log = simulate(world, read_program(parse_term("wait(1.0)"), known), duration=1.0, max_step=step)
+    apart = log.poses[:, log.index("c"), 0] - log.poses[:, log.index("b"), 0] - 0.3
+    omega = np.sqrt(2 * stiffness / mass)
+    assert np.abs(apart[-300:]).max() == pytest.approx(0.05, rel=0.02)
+    assert apart == pytest.approx(0.05 * np.cos(omega * log.time), abs=0.004)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.terms.errors import InputError, brief
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -27,7 +28,17 @@ class Pushes:
     _by: dict[object, _Push] = field(default_factory=dict[object, _Push])
 
     def put(self, source: object, data: Any, bodies: IntArray, wrenches: FloatArray, *, passes_on: bool) -> None:
-        """Take what a source pushes from now on in place of what it pushed, and bring the sum into the data."""
+        """Take what a source pushes from now on in place of what it pushed, and bring the sum into the data.
+
+        Raises:
+            InputError: If bodies or wrenches are none.
+        """
+        count = len(data.xfrc_applied)
+        where = f"{type(source).__name__} pushes"
+        if wrenches.shape != (len(bodies), 6) or not np.isfinite(wrenches).all():
+            raise InputError(f"{where} with wrenches of shape {wrenches.shape}; needed: {(len(bodies), 6)}, finite")
+        if len(np.unique(bodies)) < len(bodies) or ((bodies < 0) | (bodies >= count)).any():
+            raise InputError(f"{where} bodies {brief(bodies.tolist())}; allowed: 0 to {count - 1}, each once")
         self._by[source] = _Push(bodies=bodies.copy(), wrenches=wrenches.copy(), passes_on=passes_on)
         data.xfrc_applied[:] = 0.0
         for each in self._by.values():

@@ -11,7 +11,7 @@ import numpy as np
 from prolepsis.engine.joining import Joining
 from prolepsis.engine.pushing import Pushes
 from prolepsis.engine.reporting import check_attribute, check_happening
-from prolepsis.engine.world import DEBRIS_IMPEDANCE_RATIO, World, add_geom, priority_of
+from prolepsis.engine.world import DEBRIS_IMPEDANCE_RATIO, MOST_FRICTION, World, add_geom, priority_of
 from prolepsis.geometry.rotations import compose_pose, inverse, relative_pose, rotated
 from prolepsis.geometry.shape import FloatArray, IntArray, Quaternion, Triple, quaternion, triple
 from prolepsis.log.happenings import Happening
@@ -132,8 +132,10 @@ class State:
         self.attributes[name, attribute] = value
 
     def set_friction(self, index: int, friction: float) -> None:
-        """Give a thing's surface another sliding friction [1], for the rest of the run."""
+        """Give a thing's surface another sliding friction [1]."""
         thing = self.scene.things[index]
+        if not 0.0 <= friction <= MOST_FRICTION:
+            raise InputError(f"{thing.name}: friction {friction:g}; allowed: 0 to {MOST_FRICTION:g}")
         self.frictions[index] = friction
         for k in range(len(thing.shape.geoms)):
             name = f"{thing.name}/{k}"
@@ -143,7 +145,7 @@ class State:
             now.friction[0], now.priority[0] = friction, kept.priority
             for pair in self.spec.pairs:
                 if name in (pair.geomname1, pair.geomname2):
-                    slippery = min(friction, float(pair.friction[0]))
+                    slippery = min(float(self.spec.geom(each).friction[0]) for each in (pair.geomname1, pair.geomname2))
                     pair.friction = [slippery, slippery, *pair.friction[2:]]
                     self.model.pair(pair.name).friction[:2] = slippery
 
@@ -344,7 +346,7 @@ class State:
 
     def stick(self, source: object, pairs: Iterable[tuple[int, int]]) -> None:
         """Tell what sticks to what now, as far as a source holds it."""
-        self.joining.tell(source, frozenset(pairs))
+        self.joining.tell(source, frozenset(pairs), len(self.scene.things))
 
     @property
     def joints(self) -> frozenset[tuple[int, int]]:

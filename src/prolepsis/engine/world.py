@@ -31,6 +31,8 @@ ROLLING_FRICTION = 2.0e-4
 """Resistance of a smooth thing to rolling, as a length [m]; a tenth of a millimetre is usual for hard round things."""
 ROUND = ("sphere", "ellipsoid", "capsule", "cylinder")
 """Solids that roll."""
+MOST_FRICTION = 10.0
+"""Greatest friction of a surface [1], as in the ontology."""
 SAME_FRICTION = 1.0e-6
 """Frictions that differ by less than this count as the same [1]."""
 SPINNING_FRICTION = 1.0e-3

@@ -110,7 +110,7 @@ class Controller:
     """What a kind does in one run; by default it does nothing and needs nothing."""
 
     def rejoin(self, state: Running) -> None:
-        """Make joints anew: a body that has fallen apart has lost them."""
+        """Make joints anew, once a body has fallen apart: it has lost them. The first are made in any other step."""
         del state
 
     def bind(self, state: Running) -> None:

@@ -87,7 +87,7 @@ class Running(Protocol):
         ...
 
     def set_friction(self, index: int, friction: float) -> None:
-        """Give a thing's surface another sliding friction [1], for the rest of the run."""
+        """Give a thing's surface another sliding friction, 0 to 10 [1], until it is given another one."""
         ...
 
     def push(self, source: object, bodies: IntArray, wrenches: FloatArray, *, passes_on: bool = False) -> None:
