@@ -15,7 +15,7 @@ from prolepsis.engine.world import compile_world
 from prolepsis.matter.shells.breaking import Breaking
 from prolepsis.programs import read_program
 from prolepsis.system.mujoco import mujoco
-from prolepsis.terms.terms import parse_term
+from prolepsis.terms.reader import parse_term
 
 PLANS = {force: f"sequence([close(hand1, {force}), hold(hand1, 2.0)])" for force in (5.0, 15.0)}
 REPEATS = 3

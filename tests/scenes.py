@@ -17,7 +17,7 @@ from prolepsis.programs import read_program
 from prolepsis.scenario.file import DEFAULT_PARTICLES
 from prolepsis.scene.kind import Controller
 from prolepsis.scene.scene import Scene
-from prolepsis.terms.terms import parse_term
+from prolepsis.terms.reader import parse_term
 
 Acting = TypeVar("Acting", bound=Controller)
 

@@ -27,7 +27,7 @@ from prolepsis.knowledge import KnowledgeBase
 from prolepsis.log.fact_types import ACTION_EVENTS
 from prolepsis.programs import ACTIONS, read_program
 from prolepsis.projection import project
-from prolepsis.terms.terms import parse_term
+from prolepsis.terms.reader import parse_term
 
 PAGE = (Path(__file__).parents[1] / "docs" / "how-to.md").read_text(encoding="utf-8")
 

@@ -42,7 +42,8 @@ if TYPE_CHECKING:
         MissingToolError,
         ProlepsisError,
     )
-    from prolepsis.terms.terms import Term, Variable, format_value, parse_term
+    from prolepsis.terms.reader import parse_term
+    from prolepsis.terms.terms import Term, Variable, format_value
 
 _HOMES = {
     "prolepsis.campaigns.campaign": ("Outcomes", "sweep"),
@@ -55,7 +56,8 @@ _HOMES = {
     "prolepsis.campaigns.outcome": ("Grasp", "judge_grasp"),
     "prolepsis.projection": ("Projection", "project"),
     "prolepsis.scenario.scenario": ("Parameter", "Scenario"),
-    "prolepsis.terms.terms": ("Term", "Variable", "format_value", "parse_term"),
+    "prolepsis.terms.reader": ("parse_term",),
+    "prolepsis.terms.terms": ("Term", "Variable", "format_value"),
     "prolepsis.geometry.shape": ("Geom", "Shape"),
     "prolepsis.log.things": ("Thing",),
     "prolepsis.log.timeline": ("Fact", "Timeline"),

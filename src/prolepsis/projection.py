@@ -32,7 +32,8 @@ from prolepsis.scene.scene import Scene
 from prolepsis.system.kernels import are_kept
 from prolepsis.system.threads import one_thread
 from prolepsis.terms.errors import InputError, LogError, ScenarioError, brief
-from prolepsis.terms.terms import Value, format_value, parse_term
+from prolepsis.terms.reader import parse_term
+from prolepsis.terms.terms import Value, format_value
 
 Progress = Callable[[str], None]
 """Called from time to time with a few words on what is being done."""

@@ -19,7 +19,7 @@ from prolepsis.scene.kind import Controller, Kind
 from prolepsis.scene.running import PointJoint, Running
 from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.errors import InputError
-from prolepsis.terms.terms import parse_term
+from prolepsis.terms.reader import parse_term
 
 G = 9.81
 FLOOR = ":floor a :Floor . "

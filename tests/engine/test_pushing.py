@@ -16,7 +16,7 @@ from prolepsis.programs.reading import read_program
 from prolepsis.scene.kind import Controller, Kind
 from prolepsis.scene.running import Running
 from prolepsis.terms.errors import InvalidSimulationError
-from prolepsis.terms.terms import parse_term
+from prolepsis.terms.reader import parse_term
 
 G = 9.81
 FLOOR = ":floor a :Floor . "

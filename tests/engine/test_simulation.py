@@ -16,7 +16,7 @@ from prolepsis.matter.kinds import known_kinds
 from prolepsis.programs import read_program
 from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.errors import InvalidSimulationError, KnowledgeError, ScenarioError, UnknownNameError
-from prolepsis.terms.terms import parse_term
+from prolepsis.terms.reader import parse_term
 
 TWO_BLOCKS = ":floor a :Floor . :block1 a :Block ; :on :floor . :block2 a :Block ; :on :block1 ."
 

@@ -7,7 +7,7 @@ from tests.scenes import EGG_IN_HAND, scene
 
 from prolepsis.programs import read_program
 from prolepsis.terms.errors import PlanError
-from prolepsis.terms.terms import parse_term
+from prolepsis.terms.reader import parse_term
 
 RAW = EGG_IN_HAND + " :hand2 a :Gripper ; :x 0.5 ; :z 0.9 ."
 BOILED = RAW.replace(":Egg", ":HardBoiledEgg")

@@ -9,7 +9,7 @@ import pytest
 
 from prolepsis.cli import main
 from prolepsis.terms.errors import LONGEST_LINE, InputError, brief, brief_list, error_line
-from prolepsis.terms.terms import parse_term
+from prolepsis.terms.reader import parse_term
 
 TURTLE = """@prefix : <https://w3id.org/prolepsis#> .
 @prefix xsd: <http://www.w3.org/2001/XMLSchema#> .

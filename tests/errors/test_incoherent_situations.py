@@ -10,7 +10,7 @@ from prolepsis.programs import read_program
 from prolepsis.programs.action import ACTIONS, NEEDS
 from prolepsis.scene.scene import Scene
 from prolepsis.terms.errors import InputError, KnowledgeError, PlanError
-from prolepsis.terms.terms import parse_term
+from prolepsis.terms.reader import parse_term
 
 BASE = ":floor a :Floor . :table1 a :Table . :hand1 a :Gripper ; :z 1.2 ."
 BLOCK = ":block1 a :Block ; :on :table1 ; :length 0.05 ; :width 0.05 ; :height 0.05 ."

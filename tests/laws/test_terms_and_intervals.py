@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from prolepsis.log.timeline import Fact, Timeline, make_timeline
 from prolepsis.terms.allen import INVERSES, RELATIONS, Interval, relation
 from prolepsis.terms.errors import InputError
-from prolepsis.terms.terms import Term, Value, Variable, format_value, parse_term
+from prolepsis.terms.reader import parse_term
+from prolepsis.terms.terms import Term, Value, Variable, format_value
 
 NAMES = st.sampled_from(
     ["egg1", "-", "+", ":-", "is", "mod", ",", "|", "[]", "{}", "don't", "A b", "é", "\\+"]

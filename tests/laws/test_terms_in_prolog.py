@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from prolepsis.log.timeline import make_timeline
 from prolepsis.logic.session import Session
-from prolepsis.terms.terms import Term, Value, format_value, parse_term
+from prolepsis.terms.reader import parse_term
+from prolepsis.terms.terms import Term, Value, format_value
 
 EMPTY = make_timeline([], dt=0.001, duration=1.0)
 SESSION = Session()

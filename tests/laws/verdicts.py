@@ -11,7 +11,7 @@ from prolepsis.engine.world import World, compile_world
 from prolepsis.fluents import recognize
 from prolepsis.log.log import Log
 from prolepsis.programs import read_program
-from prolepsis.terms.terms import parse_term
+from prolepsis.terms.reader import parse_term
 
 PARTICLES = 200
 """Particles in a full cup: coarse, since a table has many rows."""

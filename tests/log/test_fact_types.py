@@ -12,7 +12,8 @@ from prolepsis.fluents import fact_types
 from prolepsis.log.fact_types import arguments_of
 from prolepsis.log.timeline import Fact
 from prolepsis.programs import ACTIONS
-from prolepsis.terms.terms import Term, parse_term
+from prolepsis.terms.reader import parse_term
+from prolepsis.terms.terms import Term
 
 DIGESTS = json.loads((Path(__file__).parents[2] / "tools" / "digests.json").read_text())["examples"]
 

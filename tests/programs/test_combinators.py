@@ -22,7 +22,7 @@ from prolepsis.robots.commands import (
 )
 from prolepsis.scene.scene import Scene
 from prolepsis.terms.errors import InputError, PlanError, UnknownNameError
-from prolepsis.terms.terms import parse_term
+from prolepsis.terms.reader import parse_term
 
 TWO_HANDS = EGG_IN_HAND + " :hand2 a :Gripper ; :x 0.5 ; :z 0.9 ."
 

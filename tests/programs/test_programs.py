@@ -11,7 +11,8 @@ from prolepsis.robots.commands import Begin, CloseGripper, Command, End, HandSen
 from prolepsis.robots.hand import HAND
 from prolepsis.scene.scene import Scene
 from prolepsis.terms.errors import InputError, PlanError, UnknownNameError
-from prolepsis.terms.terms import Term, parse_term
+from prolepsis.terms.reader import parse_term
+from prolepsis.terms.terms import Term
 
 
 @pytest.fixture(scope="module")

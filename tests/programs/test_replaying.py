@@ -26,7 +26,7 @@ from prolepsis.projection import project
 from prolepsis.robots.pr2 import PR2
 from prolepsis.scene.scene import Scene
 from prolepsis.terms.errors import InputError
-from prolepsis.terms.terms import parse_term
+from prolepsis.terms.reader import parse_term
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 HAND = ":floor a :Floor . :hand1 a :Gripper ; :z 1.0 ."

@@ -27,7 +27,7 @@ from prolepsis.scene.kind import Channel, Controller, Individuals, Kind, Made
 from prolepsis.scene.parts import Panel, Shard
 from prolepsis.scene.running import TICK, Running
 from prolepsis.terms.errors import InputError, KnowledgeError, UnknownNameError
-from prolepsis.terms.terms import parse_term
+from prolepsis.terms.reader import parse_term
 
 FLOOR = ":floor a :Floor . "
 

@@ -9,7 +9,7 @@ import pytest
 
 from prolepsis import project
 from prolepsis.projection import read_scenario
-from prolepsis.terms.terms import parse_term
+from prolepsis.terms.reader import parse_term
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

@@ -10,7 +10,7 @@ from prolepsis.engine.world import compile_world
 from prolepsis.fluents import recognize
 from prolepsis.log.timeline import Timeline
 from prolepsis.programs import read_program
-from prolepsis.terms.terms import parse_term
+from prolepsis.terms.reader import parse_term
 
 ON_THE_TABLE = """:floor a :Floor . :table1 a :Table .
 :bowl1 a :Bowl ; :on :table1 . :egg1 a :Egg ; :on :bowl1 .

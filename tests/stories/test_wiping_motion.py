@@ -8,7 +8,7 @@ from prolepsis.engine.simulation import simulate
 from prolepsis.engine.world import compile_world
 from prolepsis.fluents import recognize
 from prolepsis.programs import read_program
-from prolepsis.terms.terms import parse_term
+from prolepsis.terms.reader import parse_term
 
 SPONGE_IN_HAND = """:floor a :Floor . :table1 a :Table . :sponge1 a :Sponge ; :on :table1 .
 :hand1 a :Gripper ; :pitch 90.0 ; :z 0.727 ; :opening 0.072 .

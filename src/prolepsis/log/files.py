@@ -18,7 +18,8 @@ from prolepsis.log.log import Action, Log, Particles
 from prolepsis.log.sealed import read_sealed, read_text, write_json, write_sealed
 from prolepsis.log.things import Mount, Thing
 from prolepsis.terms.errors import InputError, LogError, brief
-from prolepsis.terms.terms import Term, format_value, parse_term
+from prolepsis.terms.reader import parse_term
+from prolepsis.terms.terms import Term, format_value
 
 HEAD = "log.json"
 """Tick, gravity, things, actions and the spacing of the particles: what is no column."""

@@ -21,7 +21,8 @@ from prolepsis.logic.refusals import refusal, shown
 from prolepsis.logic.rules import read_rules, rule_refusal
 from prolepsis.logic.run_file import write_run
 from prolepsis.terms.errors import GoalError, GoalLimitError, InputError, Note, brief
-from prolepsis.terms.terms import Value, format_atom, format_value, parse_term
+from prolepsis.terms.reader import parse_term
+from prolepsis.terms.terms import Value, format_atom, format_value
 
 GRACE = 5.0
 """Time beyond its limit after which a query that does not even stop is ended with its process [s]."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from prolepsis.log.log import Log
@@ -10,17 +10,20 @@ from prolepsis.report.liquid import Picture
 from prolepsis.system.workers import Lost, Worker
 from prolepsis.terms.errors import MissingToolError, ProlepsisError
 
+Draw = Callable[..., Iterator[Picture]]
+"""Draws a log at ticks, with a size and a view."""
+
 _drawn: Iterator[Picture] = iter(())
 """In the process that draws: its pictures."""
 
 
 def pictures_elsewhere(
-    log: Log, ticks: Sequence[int], size: tuple[int, int], view: Mapping[str, float]
+    draw: Draw, log: Log, ticks: Sequence[int], size: tuple[int, int], view: Mapping[str, float]
 ) -> Iterator[Picture]:
-    """Yield what ``render.pictures`` yields, drawn by another process."""
+    """Yield what ``draw`` yields, a function of a module, in another process."""
     worker = Worker()
     try:
-        _answer(worker, _begin, log, ticks, size, view)
+        _answer(worker, _begin, draw, log, ticks, size, view)
         for _ in ticks:
             yield _answer(worker, _next)
     finally:
@@ -40,11 +43,9 @@ def _answer(worker: Worker, task: Any, *arguments: Any) -> Any:
     return found
 
 
-def _begin(log: Log, ticks: Sequence[int], size: tuple[int, int], view: Mapping[str, float]) -> None:
+def _begin(draw: Draw, log: Log, ticks: Sequence[int], size: tuple[int, int], view: Mapping[str, float]) -> None:
     global _drawn
-    from prolepsis.report.render import pictures
-
-    _drawn = pictures(log, ticks, size=size, **view)
+    _drawn = draw(log, ticks, size=size, **view)
 
 
 def _next() -> Picture | ProlepsisError:

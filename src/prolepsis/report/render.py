@@ -166,7 +166,7 @@ def pictures(log: Log, ticks: Sequence[int], *, size: tuple[int, int], **view: f
     if opened_by_parent():
         from prolepsis.report.forked import pictures_elsewhere
 
-        yield from pictures_elsewhere(log, ticks, size, view)
+        yield from pictures_elsewhere(pictures, log, ticks, size, view)
         return
     width, height = size
     from prolepsis.report.stage import Stage

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import hashlib
 import os
-import resource
 import signal
 import subprocess
 import sys
@@ -18,7 +17,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from prolepsis.system.cache import cache_root, keep, read_kept
-from prolepsis.terms.errors import InputError, ScenarioError
+from prolepsis.terms.errors import ScenarioError
 
 MEMORY = 4 * 2**30
 """Address space of the process [byte]: MuJoCo itself takes half a gigabyte of it."""
@@ -47,7 +46,7 @@ def try_robot(path: Path, model: bytes, meshes: Iterable[Path]) -> None:
     with tempfile.TemporaryDirectory() as folder:
         # MuJoCo writes its warnings into the working folder.
         ended = subprocess.run(
-            [sys.executable, "-m", __name__, str(path.absolute())],
+            [sys.executable, "-m", f"{__name__}_of_one", str(path.absolute())],
             cwd=folder,
             env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
             stdin=subprocess.DEVNULL,
@@ -65,22 +64,3 @@ def try_robot(path: Path, model: bytes, meshes: Iterable[Path]) -> None:
             f"{MEMORY / 2**30:g} GiB and {SECONDS} s); its meshes may be damaged or too fine"
         )
     keep(passed, b"")
-
-
-def main(path: Path) -> int:
-    """Read a robot within limits; print why, if it is refused."""
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    from prolepsis.robots.model_file import read_model_file
-
-    try:
-        read_model_file(path, tried=True)
-    except InputError as error:
-        sys.stdout.write(str(error))
-        return REFUSED
-    return PASSED
-
-
-if __name__ == "__main__":
-    sys.exit(main(Path(sys.argv[1])))

@@ -17,7 +17,8 @@ from prolepsis.scenario.file import DEFAULT_PARTICLES, ParameterTable, read_file
 from prolepsis.scenario.own_robot import OwnRobot
 from prolepsis.system.text_files import is_file, path_of
 from prolepsis.terms.errors import InputError, PlanError, ScenarioError, UnknownNameError, brief, brief_list
-from prolepsis.terms.terms import PARTIAL_LIST, Term, Value, Variable, parse_term
+from prolepsis.terms.reader import parse_term
+from prolepsis.terms.terms import PARTIAL_LIST, Term, Value, Variable
 from prolepsis.terms.units import read_quantity, si_symbol, to_float, to_si, unit_of
 
 FEWEST_PARTICLES, MOST_PARTICLES = 20, 200_000

@@ -92,6 +92,21 @@ def _rational(text: str) -> Value:
     return Term("rdiv", (int(above), int(below)))
 
 
+def parse_term(text: str, *, where: str = "term") -> Value:
+    """Return the value that ``text`` denotes in Prolog's syntax; a final full stop may be left out.
+
+    Args:
+        text: One term, such as ``sequence([grasp(hand1, egg3, Force), lift(hand1, 0.1)])``.
+        where: What the text is, for the error message: ``"egg.toml: plan"``.
+
+    Raises:
+        InputError: With the position and what was expected, if the text is not one term.
+    """
+    if not isinstance(text, str):  # pyright: ignore[reportUnnecessaryIsInstance]
+        raise InputError(f"{where}: a term is read from text, not from {brief(type(text).__name__)}")
+    return read_term(text, where)
+
+
 def read_term(text: str, where: str) -> Value:
     """Return the one value in ``text``; see ``prolepsis.terms.terms.parse_term``."""
     try:

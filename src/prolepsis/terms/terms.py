@@ -11,7 +11,7 @@ import math
 import re
 from dataclasses import dataclass
 
-from prolepsis.terms.errors import InputError, brief
+from prolepsis.terms.errors import InputError
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,23 +103,6 @@ _ESCAPES = {
     "\f": "\\f",
     "\v": "\\v",
 }
-
-
-def parse_term(text: str, *, where: str = "term") -> Value:
-    """Return the value that ``text`` denotes in Prolog's syntax; a final full stop may be left out.
-
-    Args:
-        text: One term, such as ``sequence([grasp(hand1, egg3, Force), lift(hand1, 0.1)])``.
-        where: What the text is, for the error message: ``"egg.toml: plan"``.
-
-    Raises:
-        InputError: With the position and what was expected, if the text is not one term.
-    """
-    if not isinstance(text, str):  # pyright: ignore[reportUnnecessaryIsInstance]
-        raise InputError(f"{where}: a term is read from text, not from {brief(type(text).__name__)}")
-    from prolepsis.terms.reader import read_term
-
-    return read_term(text, where)
 
 
 def format_value(value: Value) -> str:

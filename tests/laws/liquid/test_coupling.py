@@ -18,7 +18,7 @@ from prolepsis.log.things import FIXED, WITHIN, Thing
 from prolepsis.programs import read_program
 from prolepsis.scene.scene import Pool
 from prolepsis.terms.errors import InvalidSimulationError
-from prolepsis.terms.terms import parse_term
+from prolepsis.terms.reader import parse_term
 
 JAR, DEPTH = 0.032, 0.08
 """Inner radius of a jar that stands fast, and depth of the honey [m]."""
