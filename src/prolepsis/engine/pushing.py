@@ -26,6 +26,8 @@ class Pushes:
     """What each source pushes now."""
 
     _by: dict[object, _Push] = field(default_factory=dict[object, _Push])
+    _on: dict[tuple[int, bool], BoolArray] = field(default_factory=dict[tuple[int, bool], BoolArray])
+    """What is pushed, as long as nobody pushes otherwise."""
 
     def put(self, source: object, data: Any, bodies: IntArray, wrenches: FloatArray, *, passes_on: bool) -> None:
         """Take what a source pushes from now on in place of what it pushed, and bring the sum into the data.
@@ -39,6 +41,7 @@ class Pushes:
             raise InputError(f"{where} with wrenches of shape {wrenches.shape}; needed: {(len(bodies), 6)}, finite")
         if len(np.unique(bodies)) < len(bodies) or ((bodies < 0) | (bodies >= count)).any():
             raise InputError(f"{where} bodies {brief(bodies.tolist())}; allowed: 0 to {count - 1}, each once")
+        self._on.clear()
         self._by[source] = _Push(bodies=bodies.copy(), wrenches=wrenches.copy(), passes_on=passes_on)
         data.xfrc_applied[:] = 0.0
         for each in self._by.values():
@@ -51,14 +54,19 @@ class Pushes:
 
     def on(self, count: int, *, passes_on: bool) -> BoolArray:
         """Return which of ``count`` bodies is pushed by sources that only pass energy on, or by others."""
+        known = self._on.get((count, passes_on))
+        if known is not None:
+            return known
         pushed = np.zeros(count, dtype=np.bool_)
         for each in self._by.values():
             if each.passes_on == passes_on:
                 pushed[each.bodies] |= each.wrenches.any(axis=1)
+        self._on[count, passes_on] = pushed
         return pushed
 
     def bind(self, old: Sequence[str], new: Sequence[str]) -> None:
         """Take the numbers of bodies in a model that is new, names being given; what is no more is pushed no more."""
+        self._on.clear()
         index = {name: body for body, name in enumerate(new)}
         number = np.array([index.get(name, -1) for name in old], dtype=np.int64)
         for source, each in self._by.items():

@@ -5,7 +5,7 @@ It reads the simulation and changes nothing in it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -24,6 +24,9 @@ from prolepsis.scene.particles import PERIOD, ParticleState
 from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.errors import InputError, brief_list
 
+NOWHERE = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
+"""The pose of what is where its carrier is, or has never been seen."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class _Version:
@@ -35,6 +38,8 @@ class _Version:
     thing_of_geom: IntArray
     matter: Matter
     bodies: Movers
+    holding: tuple[tuple[int, tuple[int, int]], ...]
+    """Constraints that hold bodies of things together, and which."""
 
 
 @dataclass(kw_only=True)
@@ -81,6 +86,7 @@ class Recorder:
                 thing_of_geom=state.body_thing[state.model.geom_bodyid],
                 matter=Matter.of(state.model, state.world.scene.things),
                 bodies=Movers.of(state.model, body_of),
+                holding=_holding(state),
             )
         )
 
@@ -88,29 +94,35 @@ class Recorder:
         """Copy the contacts of one substep of length ``step`` [s]."""
         data = state.data
         if data.ncon:
-            contact = data.contact
+            contact, version = data.contact, len(self.versions) - 1
+            geom, distance = contact.geom, contact.dist
             self.contacts.append(
                 (
                     tick,
-                    len(self.versions) - 1,
+                    version,
                     step,
-                    contact.geom.copy(),
+                    geom.copy(),
                     contact.efc_address.copy(),
                     contact.frame.copy(),
                     contact.pos.copy(),
                     data.efc_force.copy(),
                 )
             )
-            distance = contact.dist
-            if distance.min() < -LEAST_LIMIT:
+            # Of few numbers, Python's is the faster minimum.
+            if min(distance.tolist()) < -LEAST_LIMIT:
                 chosen = distance < -LEAST_LIMIT
-                self.deep.append((tick, len(self.versions) - 1, contact.geom[chosen], distance[chosen]))
+                self.deep.append((tick, version, geom[chosen], distance[chosen]))
 
     def tick(self, state: State) -> None:
         """Copy the poses at the start of a tick."""
         state.renew_poses()
-        _go_on(self.joints, state.joints, len(self.poses))
-        _go_on(self.held, _held(state), len(self.poses))
+        if state.joints:
+            _go_on(self.joints, state.joints, len(self.poses))
+        version = self.versions[-1]
+        if version.holding:
+            active = state.data.eq_active.tolist()
+            held = sorted({pair for number, pair in version.holding if active[number]})
+            _go_on(self.held, held, len(self.poses))
         if state.particles is not None:
             self.wet.append((state.pushes.on(state.model.nbody, passes_on=True), state.model.body_mass.copy()))
         if state.pushes.drive:
@@ -119,15 +131,13 @@ class Recorder:
 
     def stretches(self) -> list[Stretch]:
         """Return from when to when the model stayed the same, and what could touch something then."""
-        versions = np.array([row[0] for row in self.poses])
-        found: list[Stretch] = []
-        for number, version in enumerate(self.versions):
-            ticks = np.flatnonzero(versions == number)
-            if len(ticks):
-                found.append(
-                    Stretch(start=int(ticks[0]), end=int(ticks[-1]) + 1, matter=version.matter, bodies=version.bodies)
-                )
-        return found
+        return [stretch for stretch, _ in self._stretches()]
+
+    def _stretches(self) -> Iterator[tuple[Stretch, _Version]]:
+        begins = np.searchsorted([row[0] for row in self.poses], np.arange(len(self.versions) + 1)).tolist()
+        for version, start, end in zip(self.versions, begins, begins[1:], strict=False):
+            if start < end:
+                yield Stretch(start=start, end=end, matter=version.matter, bodies=version.bodies), version
 
     def matters(self) -> list[Matter]:
         """Return what could touch something in each model."""
@@ -168,22 +178,25 @@ class Recorder:
         count = len(self.versions[0].carrier)
         poses = np.zeros((len(self.poses), count, 7))
         carriers = np.zeros((len(self.poses), count), dtype=np.int64)
-        versions = np.array([row[0] for row in self.poses])
-        last = np.tile([0.0, 0, 0, 1, 0, 0, 0], (count, 1))
-        for number, version in enumerate(self.versions):
-            ticks = np.flatnonzero(versions == number)
-            if not len(ticks):
-                continue
-            position = np.stack([self.poses[t][1] for t in ticks])
-            orientation = np.stack([self.poses[t][2] for t in ticks])
+        last = np.tile(NOWHERE, (count, 1))
+        for stretch, version in self._stretches():
+            ticks = slice(stretch.start, stretch.end)
+            position = np.stack([row[1] for row in self.poses[ticks]])
+            orientation = np.stack([row[2] for row in self.poses[ticks]])
+            block = poses[ticks]
             carried = version.carrier >= 0
+            apart = carried & (version.offsets != NOWHERE).any(axis=1)
+            itself = carried & ~apart
             body = version.body_of[version.carrier]
-            outer_p, outer_q = position[:, body], orientation[:, body]
-            inner_p, inner_q = version.offsets[:, :3], version.offsets[:, 3:]
-            block = np.concatenate([outer_p + rotate(outer_q, inner_p), multiply(outer_q, inner_q)], axis=2)
+            # Zeros have no sign.
+            block[:, itself, :3] = position[:, body[itself]] + 0.0
+            block[:, itself, 3:] = orientation[:, body[itself]] + 0.0
+            outer_p, outer_q = position[:, body[apart]], orientation[:, body[apart]]
+            inner_p, inner_q = version.offsets[apart, :3], version.offsets[apart, 3:]
+            block[:, apart, :3] = outer_p + rotate(outer_q, inner_p)
+            block[:, apart, 3:] = multiply(outer_q, inner_q)
             # What is no body of its own keeps the pose at which it was last seen.
             block[:, ~carried] = last[~carried]
-            poses[ticks] = block
             carriers[ticks] = version.carrier
             last = block[-1]
         return poses, carriers
@@ -256,14 +269,12 @@ class Recorder:
         )
 
 
-def _held(state: State) -> Iterable[tuple[int, int]]:
-    """Return the things whose bodies active constraints hold together, whether or not that was told."""
+def _holding(state: State) -> tuple[tuple[int, tuple[int, int]], ...]:
+    """Return the constraints that hold bodies together when they are active, told or not, and the two things."""
     model = state.model
-    if not model.neq:
-        return ()
-    active = (state.data.eq_active > 0) & (model.eq_objtype == int(mujoco.mjtObj.mjOBJ_BODY))
-    pairs = state.body_thing[np.stack([model.eq_obj1id[active], model.eq_obj2id[active]], axis=1)]
-    return sorted({(a, b) for a, b in pairs.tolist() if a >= 0 and b >= 0})
+    chosen = np.flatnonzero(model.eq_objtype == int(mujoco.mjtObj.mjOBJ_BODY))
+    things = state.body_thing[np.stack([model.eq_obj1id[chosen], model.eq_obj2id[chosen]], axis=1)]
+    return tuple((k, (a, b)) for k, (a, b) in zip(chosen.tolist(), things.tolist(), strict=True) if a >= 0 and b >= 0)
 
 
 def _go_on(known: dict[tuple[int, int], list[tuple[int, int]]], pairs: Iterable[tuple[int, int]], now: int) -> None:

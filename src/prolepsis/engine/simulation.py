@@ -87,7 +87,8 @@ def simulate(
     channels = Channels(chosen_channels(world.scene, monitors))
     running: dict[Term, list[Action]] = {}
     actions: list[Action] = []
-    behaviour = program.start(_sense(state, controls, 0.0))
+    sensed = _senses(state, controls)
+    behaviour = program.start(sensed(0.0))
     ended_at: int | None = None
 
     def renewed() -> bool:
@@ -110,7 +111,7 @@ def simulate(
             progress(tick * TICK)
 
         # Program -> targets.
-        for command in behaviour.step(_sense(state, controls, tick * TICK)):
+        for command in behaviour.step(sensed(tick * TICK)):
             _note(command, tick, running, actions)
             controls.accept(command)
         if behaviour.ended and ended_at is None:
@@ -125,29 +126,36 @@ def simulate(
 
         for each in beginning:
             each.begin_tick(state)
-            renewed()
-        step = min([MAX_STEP, *(each.longest_step(state) for each in stepping)])
-        count = math.ceil(TICK / min(step, max_step) - 1e-9)
-        state.model.opt.timestep = TICK / count
-        together = count if all([each.is_steady() for each in looking]) else 1
+            if state.version != binding.version:
+                renewed()
+        step = max_step
+        for each in stepping:
+            step = min(step, each.longest_step(state))
+        count = math.ceil(TICK / step - 1e-9)
+        model, data = state.model, state.data
+        model.opt.timestep = TICK / count
+        together = 1 if [each for each in looking if not each.is_steady()] else count
         for _ in range(count // together):
             # Physics step.
-            mujoco.mj_step(state.model, state.data, together)
-            if not float(state.data.qvel @ state.data.qvel) <= MAX_SPEED**2 * state.model.nv:
+            mujoco.mj_step(model, data, together)
+            velocity = data.qvel
+            if not velocity.dot(velocity) <= MAX_SPEED**2 * model.nv:
                 _refuse(state, tick)
             recorder.substep(state, tick, TICK * together / count)
             # Matter, in its one order.
             for acting in working:
                 acting.act(state)
-                if renewed():
-                    state.model.opt.timestep = TICK / count
+                if state.version != binding.version and renewed():
+                    model, data = state.model, state.data
+                    model.opt.timestep = TICK / count
                     # The forces are now those of the rebuilt model, which no step has used and no row holds yet.
                     break
-        if state.warnings or int(state.data.warning.number.sum()):
+        if state.warnings or data.warning.number.any():
             _refuse(state, tick)
         for each in ending:
             each.end_tick(state)
-            renewed()
+            if state.version != binding.version:
+                renewed()
         controls.measure(state)
         tick += 1
         state.tick = tick
@@ -179,17 +187,24 @@ def _having(going: Sequence[Controller], step: str) -> list[Controller]:
     return [each for each in going if getattr(type(each), step) is not nothing]
 
 
-def _sense(state: State, controls: Controls, time: float) -> Sense:
-    hands, robots = controls.sense()
-    return Sense(
-        time=time,
-        hands=hands,
-        position=state.position,
-        orientation=state.orientation,
-        pressing=state.pressing,
-        attribute=state.attribute,
-        robots=robots,
-    )
+def _senses(state: State, controls: Controls) -> Callable[[float], Sense]:
+    """Return what tells all that can be sensed at a time [s]."""
+    position, orientation = state.position, state.orientation
+    pressing, attribute = state.pressing, state.attribute
+
+    def sensed(time: float) -> Sense:
+        hands, robots = controls.sense()
+        return Sense(
+            time=time,
+            hands=hands,
+            position=position,
+            orientation=orientation,
+            pressing=pressing,
+            attribute=attribute,
+            robots=robots,
+        )
+
+    return sensed
 
 
 def _note(command: Command, tick: int, running: dict[Term, list[Action]], actions: list[Action]) -> None:

@@ -38,6 +38,7 @@ def as_event(
     named.update(zip(named, said, strict=False))
     term = Term(name, said)
     evidence: dict[str, float | str] = {}
+    peak = -1.0
     hands = [each for each in sense.hands if each in named.values()]
     held = {each for each in hands if sense.hands[each].grip > 0 and sense.hands[each].pad_force > 0}
     lost = dict.fromkeys(hands, 0)
@@ -58,9 +59,12 @@ def as_event(
             if isinstance(note, Measured):
                 evidence |= note.evidence
         sense = yield made
-        for each in hands if not is_instant(made) else ():
+        if is_instant(made):
+            continue
+        for each in hands:
             hand = sense.hands[each]
-            evidence["peak_pad_force"] = max(float(evidence.get("peak_pad_force", 0.0)), hand.pad_force)
+            if hand.pad_force > peak:
+                evidence["peak_pad_force"] = peak = hand.pad_force
             lost[each] = lost[each] + 1 if hand.grip > 0 and hand.pad_force == 0 else 0
     dropped = any(lost[each] >= LOST_TICKS for each in held)
     return (yield (End(term=term, outcome="dropped" if dropped else "done", evidence=evidence),))

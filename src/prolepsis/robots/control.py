@@ -20,6 +20,8 @@ S = TypeVar("S")
 class Asked(Mapping[str, S]):
     """What is sensed, by name, found out when it is first asked for: most of it never is."""
 
+    __slots__ = ("_known", "_senses")
+
     def __init__(self, senses: Mapping[str, Callable[[], S]]) -> None:
         """Ask ``senses`` when needed."""
         self._senses = senses
@@ -48,6 +50,8 @@ class Controls:
     """By the gripper's name."""
     trunks: Mapping[str, Trunk]
     """By the robot's name."""
+    senses: tuple[Mapping[str, Callable[[], HandSense]], Mapping[str, Callable[[], RobotSense]]]
+    """What asks hands and robots what they sense."""
 
     @classmethod
     def of(cls, state: Running) -> Controls:
@@ -63,7 +67,8 @@ class Controls:
             else:
                 hands[thing.name] = ArmHand(state, thing, scene.robots[robot], robot, reference_of(scene, thing))
         trunks = {name: Trunk(state, name, robot) for name, robot in scene.robots.items()}
-        return cls(hands=hands, trunks=trunks)
+        senses = {name: hand.sense for name, hand in hands.items()}, {name: t.sense for name, t in trunks.items()}
+        return cls(hands=hands, trunks=trunks, senses=senses)
 
     def accept(self, command: Command) -> None:
         """Pass a command on to whom it is for."""
@@ -104,7 +109,7 @@ class Controls:
 
     def sense(self) -> tuple[Mapping[str, HandSense], Mapping[str, RobotSense]]:
         """Return what hands and robots know of themselves; each is asked when a program does, in the same tick."""
-        return Asked({n: h.sense for n, h in self.hands.items()}), Asked({n: t.sense for n, t in self.trunks.items()})
+        return Asked(self.senses[0]), Asked(self.senses[1])
 
     def _all(self) -> Iterator[FlyingHand | ArmHand | Trunk]:
         yield from self.trunks.values()

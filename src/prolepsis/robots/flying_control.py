@@ -27,6 +27,8 @@ class FlyingHand:
         self._stiffness = hand.position_gain
         self._lags = np.repeat([hand.velocity_gain / hand.position_gain, hand.rotation_damping / hand.rotation_gain], 3)
         self._target = HandTarget(hand=self.name, offset=(0.0, 0.0, 0.0))
+        self._set: HandTarget | None = None
+        self._turned = ((0.0, 0.0, 0.0), thing.orientation)
         drive = Drive(
             motor=f"{self.name}/gap",
             tendon=f"{self.name}/gap",
@@ -43,6 +45,7 @@ class FlyingHand:
     def bind(self, state: Running) -> None:
         """Look the hand up in a model that is new."""
         self.gripper.bind(state)
+        self._set = None
         model: Any = state.model
         self._model, self._data = model, state.data
         joints = ("x", "y", "z", "yaw", "pitch", "roll")
@@ -59,9 +62,11 @@ class FlyingHand:
     def act(self, state: Running, dt: float) -> None:
         """Set the motors for the coming tick of ``dt`` [s]."""
         target = self._target
-        # The base's target runs ahead by the lag that the servo's damping causes.
-        where = np.array([*target.offset, *target.rotation])
-        self._data.ctrl[self._servos] = where + self._lags * np.array([*target.velocity, *target.angular_velocity])
+        if target is not self._set:
+            self._set = target
+            # The base's target runs ahead by the lag that the servo's damping causes.
+            where = np.array([*target.offset, *target.rotation])
+            self._data.ctrl[self._servos] = where + self._lags * np.array([*target.velocity, *target.angular_velocity])
         self.gripper.act(dt)
 
     def measure(self, forces: list[tuple[int, int, int, float]]) -> None:
@@ -70,12 +75,15 @@ class FlyingHand:
 
     def sense(self) -> HandSense:
         """Return what the hand knows of itself."""
-        x, y, z = (float(value) for value in self._data.xpos[self._palm])
+        target = self._target
+        x, y, z = self._data.xpos[self._palm].tolist()
+        if self._turned[0] is not target.rotation:
+            self._turned = (target.rotation, turned(self._first, target.rotation))
         return HandSense(
             position=(x, y, z),
-            orientation=turned(self._first, self._target.rotation),
-            offset=self._target.offset,
-            rotation=self._target.rotation,
+            orientation=self._turned[1],
+            offset=target.offset,
+            rotation=target.rotation,
             opening=self.gripper.opening,
             grip=self.gripper.command,
             load=self._load,

@@ -47,6 +47,8 @@ STEADY_TIME = 3.0e-3
 """... nothing is about to touch: it is farther away than the fastest motion goes in this time, three ticks [s] ..."""
 STEADY_LOAD = 0.8
 """... and no bond bears more than this part of its strength [1]."""
+FORCE_ROWS = np.arange(3)
+"""Rows of the normal and the two tangential forces of a contact, from its first one."""
 
 
 @dataclass(kw_only=True, slots=True)
@@ -212,8 +214,10 @@ class Breaking(Controller):
             self._steady = all(abs(totals[b] - before[b]) < STEADY_CHANGE * self._watched[b].calm for b in totals)
         if self._steady and self._active < state.data.ncon:
             contact = state.data.contact
-            travel = STEADY_TIME * float(np.abs(state.data.qvel).max())
-            self._steady = bool((contact.dist[contact.efc_address < 0] > travel).all())
+            distances: list[float] = contact.dist.tolist()
+            speeds: list[float] = state.data.qvel.tolist()
+            apart = [d for d, row in zip(distances, contact.efc_address.tolist(), strict=True) if row < 0]
+            self._steady = min(apart) > STEADY_TIME * max(map(abs, speeds))
 
     def _contact_totals(self, state: Running) -> dict[int, float]:
         """Return the sum of the normal forces on each body that may break [N], by body."""
@@ -297,16 +301,22 @@ class Breaking(Controller):
 
     def _pressing(self, state: Running, body: int, fragment: Fragment) -> Pressing:
         """Return what presses on a fragment."""
-        contacts = state.contact_forces()
-        second = contacts.bodies[:, 1] == body
-        chosen = second | (contacts.bodies[:, 0] == body)
-        rotation = state.data.body(fragment.body).xmat.reshape(3, 3)
-        sign = np.where(second[chosen], 1.0, -1.0)[:, None]
+        contact = state.data.contact
+        found = [
+            (k, 1.0 if second == body else -1.0)
+            for k, first, second, _ in state.normal_forces()
+            if body in (first, second)
+        ]
+        numbers = np.array([number for number, _ in found])
+        sign = np.array([sign for _, sign in found])
+        local = state.data.efc_force[contact.efc_address[numbers][:, None] + FORCE_ROWS]
+        force = np.einsum("cij,ci->cj", contact.frame[numbers].reshape(-1, 3, 3), local)
+        rotation = state.data.xmat[body].reshape(3, 3)
         return Pressing(
-            numbers=contacts.numbers[chosen],
-            points=(contacts.points[chosen] - state.data.body(fragment.body).xpos) @ rotation + fragment.origin,
-            forces=sign * contacts.force[chosen] @ rotation,
-            normal=contacts.normal_force[chosen],
+            numbers=numbers,
+            points=(contact.pos[numbers] - state.data.xpos[body]) @ rotation + fragment.origin,
+            forces=sign[:, None] * force @ rotation,
+            normal=local[:, 0],
         )
 
     def _detached(self, broken: Sequence[tuple[int, int]], force: float) -> list[Happening]:
@@ -333,7 +343,8 @@ class Breaking(Controller):
 
     def _near(self, state: Running) -> bool:
         """Return whether anything is near the intact thing."""
-        return bool(state.data.ncon) and any(self._number in pair for pair in state.touching())
+        number = self._number
+        return bool(state.data.ncon) and bool([pair for pair in state.touching() if number in pair])
 
 
 def _calm(graph: BondGraph) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -74,6 +75,7 @@ class GripperControl:
         self._ramp_from = 0.0
         self._motor_force = 0.0
         self._gains = (0.0, 0.0)
+        self._opening = (math.nan, 0.0)
         self.bind(state)
         self._width = self.opening
 
@@ -85,9 +87,12 @@ class GripperControl:
         self._tendon = int(model.tendon(self._drive.tendon).id)
         self._pads = [int(model.body(pad).id) for pad in self._drive.pads]
         self._resting = -1
-        self._set_gains(*self._gains)
+        gains, self._gains = self._gains, (math.nan, math.nan)
+        self._set_gains(*gains)
 
     def _set_gains(self, stiffness: float, damping: float) -> None:
+        if self._gains == (stiffness, damping):
+            return
         self._gains = (stiffness, damping)
         self._model.actuator_gainprm[self._motor, 0] = 1.0
         self._model.actuator_biasprm[self._motor, :3] = (0.0, stiffness, damping)
@@ -100,7 +105,11 @@ class GripperControl:
     @property
     def opening(self) -> float:
         """Gap between the pads [m]."""
-        return self._drive.gap.opening(self.length)
+        length = self.length
+        # Asked several times a tick.
+        if self._opening[0] != length:
+            self._opening = (length, self._drive.gap.opening(length))
+        return self._opening[1]
 
     def accept(self, command: Command) -> None:
         """Take a command for this gripper."""
@@ -175,7 +184,8 @@ class GripperControl:
         """Read the pressure of the pads from the normal forces of the last substep, as ``Running`` gives them."""
         pads = dict.fromkeys(self._pads, 0.0)
         for _, first, second, force in forces:
-            for body in (first, second):
-                if body in pads:
-                    pads[body] += force
+            if first in pads:
+                pads[first] += force
+            if second in pads:
+                pads[second] += force
         self.pad_force = min(pads.values())
