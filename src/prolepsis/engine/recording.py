@@ -26,6 +26,8 @@ from prolepsis.terms.errors import InputError, brief_list
 
 NOWHERE = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
 """The pose of what is where its carrier is, or has never been seen."""
+TOGETHER = 128
+"""Ticks whose poses are computed together: they fit into a processor's cache."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -180,25 +182,26 @@ class Recorder:
         carriers = np.zeros((len(self.poses), count), dtype=np.int64)
         last = np.tile(NOWHERE, (count, 1))
         for stretch, version in self._stretches():
-            ticks = slice(stretch.start, stretch.end)
-            position = np.stack([row[1] for row in self.poses[ticks]])
-            orientation = np.stack([row[2] for row in self.poses[ticks]])
-            block = poses[ticks]
             carried = version.carrier >= 0
             apart = carried & (version.offsets != NOWHERE).any(axis=1)
             itself = carried & ~apart
             body = version.body_of[version.carrier]
-            # Zeros have no sign.
-            block[:, itself, :3] = position[:, body[itself]] + 0.0
-            block[:, itself, 3:] = orientation[:, body[itself]] + 0.0
-            outer_p, outer_q = position[:, body[apart]], orientation[:, body[apart]]
             inner_p, inner_q = version.offsets[apart, :3], version.offsets[apart, 3:]
-            block[:, apart, :3] = outer_p + rotate(outer_q, inner_p)
-            block[:, apart, 3:] = multiply(outer_q, inner_q)
+            for start in range(stretch.start, stretch.end, TOGETHER):
+                ticks = slice(start, min(start + TOGETHER, stretch.end))
+                position = np.array([row[1] for row in self.poses[ticks]])
+                orientation = np.array([row[2] for row in self.poses[ticks]])
+                block = poses[ticks]
+                # Zeros have no sign.
+                block[:, itself, :3] = position[:, body[itself]] + 0.0
+                block[:, itself, 3:] = orientation[:, body[itself]] + 0.0
+                outer_p, outer_q = position[:, body[apart]], orientation[:, body[apart]]
+                block[:, apart, :3] = outer_p + rotate(outer_q, inner_p)
+                block[:, apart, 3:] = multiply(outer_q, inner_q)
             # What is no body of its own keeps the pose at which it was last seen.
-            block[:, ~carried] = last[~carried]
-            carriers[ticks] = version.carrier
-            last = block[-1]
+            poses[stretch.start : stretch.end, ~carried] = last[~carried]
+            carriers[stretch.start : stretch.end] = version.carrier
+            last = poses[stretch.end - 1]
         return poses, carriers
 
     def joint_columns(self) -> Joints:
@@ -344,7 +347,7 @@ class Frames:
 def _positions(state: State, particles: ParticleState) -> FloatArray:
     """Return where all particles are by now [m], shape (P, 3): those that are held are where what holds them is."""
     positions = particles.now()
-    holders: list[int] = np.unique(particles.holder[particles.holder >= 0]).tolist()
+    holders: list[int] = np.flatnonzero(np.bincount(particles.holder[particles.holder >= 0])).tolist()
     for holder in holders:
         pose, held = state.pose(state.scene.things[holder].name), particles.holder == holder
         positions[held] = pose[:3] + particles.home[held] @ matrix(pose[3:]).T

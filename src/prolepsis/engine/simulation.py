@@ -150,7 +150,7 @@ def simulate(
                     model.opt.timestep = TICK / count
                     # The forces are now those of the rebuilt model, which no step has used and no row holds yet.
                     break
-        if state.warnings or data.warning.number.any():
+        if state.warnings or any(data.warning.number.tolist()):
             _refuse(state, tick)
         for each in ending:
             each.end_tick(state)
