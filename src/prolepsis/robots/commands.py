@@ -287,4 +287,4 @@ actions begin or end it yields apart: this takes no time, and it receives what i
 
 def is_instant(commands: tuple[Command, ...]) -> bool:
     """Return whether commands take no time: they only say that actions begin or end."""
-    return bool(commands) and all(isinstance(command, (Begin, End)) for command in commands)
+    return bool(commands) and not [each for each in commands if not isinstance(each, (Begin, End))]

@@ -29,15 +29,10 @@ def follow(hand: Thing, sense: Sense, offsets: FloatArray, rotations: FloatArray
     if here.arm is None:
         velocities = np.diff(offsets, axis=0, prepend=[here.offset]) / TICK
         rates = np.diff(rotations, axis=0, prepend=[here.rotation]) / TICK
-        for offset, velocity, rotation, rate in zip(offsets, velocities, rotations, rates, strict=True):
+        courses = (_triples(each) for each in (offsets, velocities, rotations, rates))
+        for offset, velocity, rotation, rate in zip(*courses, strict=True):
             sense = yield (
-                HandTarget(
-                    hand=hand.name,
-                    offset=triple(offset),
-                    velocity=triple(velocity),
-                    rotation=triple(rotation),
-                    angular_velocity=triple(rate),
-                ),
+                HandTarget(hand=hand.name, offset=offset, velocity=velocity, rotation=rotation, angular_velocity=rate),
             )
         return sense
     knots = np.unique(np.append(np.arange(KNOTS - 1, len(offsets), KNOTS), len(offsets) - 1))
@@ -50,12 +45,12 @@ def follow(hand: Thing, sense: Sense, offsets: FloatArray, rotations: FloatArray
     count = max(round(duration * _stretch(course, duration, here.arm) / TICK), 1)
     moments = np.asarray(np.arange(1, count + 1) * (duration / count), dtype=np.float64)
     joints, rates = course(moments), course(moments, 1) * (duration / (count * TICK))
-    indices = np.minimum((moments / TICK).astype(int), len(offsets)) - 1
-    for k in range(count):
-        p = max(int(indices[k]), 0)
-        sense = yield (_target(hand, joints[k], rates[k], offsets[p], rotations[p]),)
+    indices = np.maximum(np.minimum((moments / TICK).astype(int), len(offsets)) - 1, 0)
+    poses = zip(_triples(offsets[indices]), _triples(rotations[indices]), strict=True)
+    for coordinates, speeds, (offset, rotation) in zip(joints, rates, poses, strict=True):
+        sense = yield (_target(hand, coordinates, speeds, offset, rotation),)
         _refuse_bump(hand, sense)
-    return (yield (_target(hand, joints[-1], 0 * rates[-1], offsets[-1], rotations[-1]),))
+    return (yield (_target(hand, joints[-1], 0 * rates[-1], triple(offsets[-1]), triple(rotations[-1])),))
 
 
 def go(
@@ -96,13 +91,18 @@ def _stretch(course: Callable[..., FloatArray], duration: float, arm: ArmSense) 
     return max(1.0, float(speeds.max()), float(np.sqrt(accelerations.max())))
 
 
-def _target(hand: Thing, joints: FloatArray, rates: FloatArray, offset: object, rotation: object) -> ArmTarget:
+def _triples(rows: FloatArray) -> list[Triple]:
+    """Return rows, shape (n, 3), as plain floats, which is faster than one by one."""
+    return [(x, y, z) for x, y, z in rows.tolist()]
+
+
+def _target(hand: Thing, joints: FloatArray, rates: FloatArray, offset: Triple, rotation: Triple) -> ArmTarget:
     return ArmTarget(
         hand=hand.name,
         joints=tuple(joints.tolist()),
         speeds=tuple(rates.tolist()),
-        offset=triple(offset),
-        rotation=triple(rotation),
+        offset=offset,
+        rotation=rotation,
     )
 
 
