@@ -6,7 +6,8 @@
 
 A digest is of content, not of files: poses, contacts, particles, channels, happenings, actions and facts, with the
 names of things in the place of their indices, so that rooms, formats and the order of things may change. Numbers
-count to the last bit; other versions of the engine or another kind of processor give other digests.
+count to the last bit; other versions of the engine or another kind of processor give other digests. When any differs,
+the last line tells in what of these the machine is another one than that of the kept digests.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from llvmlite.binding import get_host_cpu_name
 
 import prolepsis
 from prolepsis import Log, Timeline
@@ -61,8 +63,9 @@ def main() -> int:
                 write(given.file, {**before, **found})
     if given.write:
         return 0
-    if changed and kept.get("made_with") != made_with():
-        print(f"the kept digests are of {kept.get('made_with')}, these of {made_with()}")
+    others = list(other_makings(kept.get("made_with", {}), made_with()))
+    if changed and others:
+        print(f"the kept digests were made with other things: {'; '.join(others)}")
     return 1 if changed else 0
 
 
@@ -73,8 +76,21 @@ def write(file: Path, examples: dict[str, Any]) -> None:
 
 
 def made_with() -> dict[str, str]:
-    """Return what the last digits hang on."""
-    return {"machine": platform.machine(), **{name: version(name) for name in VERSIONS}}
+    """Return what the last digits hang on: numba compiles for the processor, numpy and BLAS choose kernels by it."""
+    extensions: Any = np.show_config(mode="dicts")
+    return {
+        "machine": platform.machine(),
+        "processor": get_host_cpu_name(),
+        "extensions": " ".join(sorted(extensions["SIMD Extensions"].get("found", ()))),
+        **{name: version(name) for name in VERSIONS},
+    }
+
+
+def other_makings(kept: dict[str, str], here: dict[str, str]) -> Iterable[str]:
+    """Yield what the last digits hang on and is not the same."""
+    for name in here:
+        if kept.get(name) != here[name]:
+            yield f"{name} {kept.get(name, 'unknown')}, here {here[name]}"
 
 
 def digest_of(name: str) -> tuple[str, dict[str, Any], float]:
