@@ -19,8 +19,8 @@ test: setup-dev  ## ruff, pyright, import-linter, pytest
 laws: setup-dev  ## the longer suites
 	.venv/bin/pytest -q -n 2 --dist worksteal -m laws
 
-bench: setup-dev  ## the benchmarks, as one table
-	@$(PY) benchmarks/run.py
+bench: setup-dev  ## the benchmarks, as one table; ARGS='--help' tells more
+	@$(PY) benchmarks/run.py $(ARGS)
 
 experiments: setup  ## run the experiments and write docs/experiments; ARGS='--only grasping'
 	@OPENBLAS_NUM_THREADS=1 $(PY) examples/experiments/pages.py $(ARGS)
