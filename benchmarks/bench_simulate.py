@@ -1,101 +1,126 @@
-"""How fast the simulation loop is beside bare MuJoCo stepping of the same model, and where the rest goes."""
+"""How fast the simulation loop is beside bare MuJoCo stepping of the same substeps, and where the rest goes."""
 
 from __future__ import annotations
 
-import cProfile
-import pstats
+import inspect
+import tempfile
 import time
+from collections import defaultdict
+from collections.abc import Callable, Generator, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
-from tests.scenes import EGG_IN_HAND, scene, started
+from tests.scenes import EGG_IN_HAND, PREFIX
 
-from prolepsis.engine.simulation import simulate
-from prolepsis.engine.state import State
+from beside import ROOT, Row, phase_rows
+from prolepsis.engine import simulation
+from prolepsis.engine.channels import Channels
+from prolepsis.engine.composing import compose_scene
+from prolepsis.engine.recording import Frames, Recorder
 from prolepsis.engine.world import compile_world
 from prolepsis.matter.shells.breaking import Breaking
 from prolepsis.programs import read_program
+from prolepsis.programs.program import RunningProgram
+from prolepsis.projection import read_scenario
+from prolepsis.robots.control import Controls
 from prolepsis.system.mujoco import mujoco
-from prolepsis.terms.reader import parse_term
 
-PLANS = {force: f"sequence([close(hand1, {force}), hold(hand1, 2.0)])" for force in (5.0, 15.0)}
-REPEATS = 3
-
-
-def _bare(world: Any, force: float, count: int, step: float) -> float:
-    """Return the time of ``count`` bare steps of the same model, the pads pressing the egg with ``force`` [N]."""
-    state = State.of(world)
-    model, data = state.model, state.data
-    model.opt.timestep = step
-    motor = model.actuator("hand1/gap").id
-    model.actuator_gainprm[motor, 0] = 1.0
-    model.actuator_biasprm[motor, :3] = (0.0, 0.0, -100.0)
-    data.ctrl[motor] = -force
-    for controller in started(state, Breaking):
-        controller.begin_tick(state)  # gives the contacts the stiffness of the shell
-    for _ in range(2000):
-        mujoco.mj_step(model, data)
-    start = time.perf_counter()
-    for _ in range(count):
-        mujoco.mj_step(model, data)
-    return time.perf_counter() - start
+FORCES = (5.0, 15.0)
+PLAN = "sequence([close(hand1, {force}), hold(hand1, 2.0)])"
+HELD = (1.0, 2.9)
+"""The pads are closed before 1 s, and hold until 2.96 s."""
+PR2 = ROOT / "examples" / "pr2_grasp.toml"
+STAGES: dict[str, tuple[tuple[Any, tuple[str, ...]], ...]] = {
+    "mj_step": ((mujoco, ("mj_step",)),),
+    "bonds: are any overloaded?": ((Breaking, ()),),
+    "hand, program and senses": ((Controls, ()), (RunningProgram, ("step",))),
+    "recording and channels": ((Recorder, ()), (Frames, ()), (Channels, ())),
+    "checks after the run": ((simulation, ("_refuse_passed", "_refuse_gained")),),
+}
+"""Whose functions are of which stage: those that are named, or all that are public."""
+REST = "other kinds, and the loop's own lines"
 
 
-def rows() -> list[tuple[str, str, str]]:
-    """Return name, measured value and target of each benchmark."""
-    made: list[tuple[str, str, str]] = []
-    known = scene(EGG_IN_HAND)
-    world = compile_world(known)
-    for force, plan in PLANS.items():
-        name = f"a hand holds the egg with {force:g} N"
-        program = read_program(parse_term(plan), known)
-        ratios: list[float] = []
-        speeds: list[float] = []
-        for _ in range(REPEATS):
-            start = time.perf_counter()
-            log = simulate(world, program)
-            used = time.perf_counter() - start
-            # With the egg near the pads all the time, every tick has four substeps.
-            bare = _bare(world, force, 4 * log.tick_count, log.dt / 4)
-            ratios.append(bare / used)
-            speeds.append(log.duration / used)
-        made.append((f"simulate over bare mj_step, {name}", f"{max(ratios):.2f}", ">= 0.3"))
-        made.append((f"simulated over wall time, {name}", f"{max(speeds):.2f}", ""))
-    made += [(f"share of simulate: {stage}", f"{share:.0%}", "") for stage, share in shares().items()]
-    return made
+def compared(sources: Sequence[Path]) -> Iterator[Row]:
+    """Yield the rows that an earlier state has, too."""
+    with tempfile.TemporaryDirectory() as folder:
+        for force in FORCES:
+            name = f"a hand holds an egg with {force:g} N"
+            yield from phase_rows(sources, _scenario(Path(folder), force), [(name, *HELD, ">= 0.75", "")])
 
 
-def shares() -> dict[str, float]:
-    """Return the share of a run's time that each stage takes, by a profile."""
-    known = scene(EGG_IN_HAND)
-    world = compile_world(known)
-    program = read_program(parse_term(PLANS[15.0]), known)
-    profile = cProfile.Profile()
-    profile.enable()
-    simulate(world, program)
-    profile.disable()
-    table: Any = pstats.Stats(profile)
-    stats: dict[tuple[str, int, str], tuple[int, int, float, float, object]] = table.stats
-    total = max(row[3] for row in stats.values())
-
-    def spent(file: str, *names: str) -> float:
-        return sum(row[3] for (path, _, name), row in stats.items() if path.endswith(file) and name in names)
-
-    found = {
-        "physics (mj_step)": sum(row[3] for (_, _, name), row in stats.items() if "mj_step" in name),
-        "bond check and contact stiffness": spent("breaking.py", "act", "substep"),
-        "recording and channels": spent("recorder.py", "tick", "substep", "contact_columns", "pose_columns")
-        + spent("channels.py", "tick"),
-        "hand, program and senses": spent("hand_control.py", "act", "measure") + spent("program.py", "step"),
-    }
-    found = {name: seconds / total for name, seconds in found.items()}
-    return {**found, "the loop itself and the rest": 1 - sum(found.values())}
+def rows() -> Iterator[Row]:
+    """Yield the shares of the stages."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, file in {"a hand, 15 N": _scenario(Path(folder), 15.0), "PR2": PR2}.items():
+            for stage, share in shares(file).items():
+                yield f"share of simulate, {name}: {stage}", f"{share:.0%}", ""
 
 
-def main() -> None:
-    """Print the rows."""
-    for name, measured, target in rows():
-        print(f"{name:60} {measured:>8}  {target}")
+def _scenario(folder: Path, force: float) -> Path:
+    """Write an egg between the pads of a hand that press it, and return the file."""
+    (folder / "egg.ttl").write_text(PREFIX + EGG_IN_HAND, encoding="utf-8")
+    file = folder / "egg.toml"
+    file.write_text(f'situation = "egg.ttl"\nplan = "{PLAN.format(force=force)}"\n', encoding="utf-8")
+    return file
 
 
-if __name__ == "__main__":
-    main()
+class Stopwatch:
+    """Where the time goes: to the innermost stage."""
+
+    def __init__(self) -> None:
+        self.spent: defaultdict[str, float] = defaultdict(float)
+        self._stage, self._since = REST, time.perf_counter()
+
+    def enter(self, stage: str) -> str:
+        """Let another stage begin, and return which one ends."""
+        now = time.perf_counter()
+        self.spent[self._stage] += now - self._since
+        before, self._stage, self._since = self._stage, stage, now
+        return before
+
+    def timed(self, stage: str, function: Callable[..., Any]) -> Callable[..., Any]:
+        """Return a function whose time is a stage's."""
+
+        def inner(*args: Any, **options: Any) -> Any:
+            before = self.enter(stage)
+            try:
+                return function(*args, **options)
+            finally:
+                self.enter(before)
+
+        return inner
+
+
+@contextmanager
+def _timed_stages() -> Generator[Stopwatch]:
+    """Time the functions of all stages within."""
+    watch = Stopwatch()
+    kept: list[tuple[Any, str, Any]] = []
+    for stage, owners in STAGES.items():
+        for owner, named in owners:
+            members: dict[str, object] = owner.__dict__
+            public = [name for name, each in members.items() if inspect.isfunction(each) and name[0] != "_"]
+            for name in named or public:
+                function = getattr(owner, name)
+                kept.append((owner, name, function))
+                setattr(owner, name, watch.timed(stage, function))
+    try:
+        yield watch
+    finally:
+        for owner, name, function in kept:
+            setattr(owner, name, function)
+
+
+def shares(file: Path) -> dict[str, float]:
+    """Return the share of a run's time that each stage takes; the timers add a few microseconds a tick."""
+    scenario = read_scenario(file, {})
+    scene = compose_scene(scenario.knowledge_base())
+    world, program = compile_world(scene), read_program(scenario.bound_plan(), scene)
+    simulation.simulate(world, program)
+    with _timed_stages() as watch:
+        simulation.simulate(world, program)
+        watch.enter(REST)
+    total = sum(watch.spent.values())
+    return {stage: watch.spent[stage] / total for stage in (*STAGES, REST)}

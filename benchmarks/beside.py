@@ -8,7 +8,7 @@ import os
 import subprocess
 import sys
 import tarfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
@@ -20,6 +20,7 @@ Row = tuple[str, ...]
 FOLDER = Path(__file__).parent
 ROOT = FOLDER.parent
 HERE = ROOT / "src"
+ROUNDS = 2
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -70,3 +71,24 @@ def alternately(sources: Sequence[Path], measure: Callable[[Path], Found], round
 def row(what: str, wanted: str, measured: Sequence[str]) -> Row:
     """Return a row of the table, with what was measured of this state and of the earlier one."""
     return (what, measured[0], wanted, *measured[1:])
+
+
+def phase_rows(
+    sources: Sequence[Path], scenario: Path, phases: Sequence[tuple[str, float, float, str, str]], *settings: str
+) -> Iterator[Row]:
+    """Yield for phases of a run how fast it is, and how fast beside bare steps; see ``phases.py``.
+
+    Args:
+        sources: Where the package lies.
+        scenario: Its file.
+        phases: Name, start and end [s], and what is wanted of the ratio and of the speed.
+        settings: ``NAME=VALUE``.
+    """
+    times = [f"{time:g}" for _, start, end, _, _ in phases for time in (start, end)]
+    words = (str(FOLDER / "phases.py"), str(scenario), *times, *settings)
+    rounds = alternately(sources, lambda source: json.loads(used(source, *words).printed), ROUNDS)
+    for number, (name, start, end, ratio, speed) in enumerate(phases):
+        best = [{key: min(run[number][key] for run in runs) for key in ("ran", "bare")} for runs in rounds]
+        shown = [f"{each['bare'] / each['ran']:.2f}" for each in best]
+        yield row(f"simulate over bare mj_step of the same substeps, {name}", ratio, shown)
+        yield row(f"simulated over processor time, {name}", speed, [f"{(end - start) / e['ran']:.2f}" for e in best])
