@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import heapq
 import itertools
+from collections.abc import Callable
+from typing import Any, cast
 
 import numpy as np
 import pytest
+from scipy import ndimage  # pyright: ignore[reportMissingTypeStubs]
 
 from prolepsis.geometry.distances import nearest_faces, node_distances
 from prolepsis.geometry.shape import BoolArray, FloatArray, Geom, Hole, IntArray, Shape
 from prolepsis.geometry.signed_distance import Field, solids_as_arrays, union_of
 from prolepsis.geometry.spilling import FINENESS, pool_levels
-from prolepsis.geometry.spreading import spread
+from prolepsis.geometry.spreading import regions, spread
 
 STEPS = [step for step in itertools.product((-1, 0, 1), repeat=3) if sum(map(abs, step)) == 1]
 UPS = [(0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (0.6, 0.0, -0.8), (-0.48, 0.6, 0.64)]
@@ -122,3 +125,12 @@ def test_nodes_spread_along_free_ways_only() -> None:
     assert np.array_equal(spread(nodes, free, 1), nodes | (np.abs(np.indices(free.shape) - 2).max(axis=0) <= 1))
     assert not spread(nodes, free, 2)[5:].any()
     assert spread(nodes, free, 3)[5].sum() == 4
+
+
+@pytest.mark.parametrize("density", [0.2, 0.5, 0.8])
+def test_regions_are_numbered_by_their_first_nodes(density: float) -> None:
+    random = np.random.default_rng(4)
+    label = cast("Callable[[BoolArray], tuple[IntArray, int]]", cast(Any, ndimage).label)
+    for _ in range(20):
+        nodes = random.random(tuple(random.integers(1, 12, 3).tolist())) < density
+        assert np.array_equal(regions(nodes), label(nodes)[0])

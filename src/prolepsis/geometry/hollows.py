@@ -9,7 +9,7 @@ Filling and recognition both ask here, so that they agree on what a vessel holds
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -18,7 +18,7 @@ from prolepsis.geometry.distances import nearest_faces, node_distances
 from prolepsis.geometry.faces import Solids
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.geometry.spilling import level_at, pool_levels
-from prolepsis.geometry.spreading import spread
+from prolepsis.geometry.spreading import regions, spread
 
 NODE_COUNT = 80_000
 """Nodes in the box round the solids: 1.9 mm apart for a cup of 10 cm. docs/grounding.md says what was measured."""
@@ -139,8 +139,8 @@ class Space:
     def basin(self, up: FloatArray, clearance: float = 0.0) -> Basin | None:
         """Return the largest pool, gaps stopped, or None if there is none."""
         pool = self.stopped(up, clearance)
-        numbers, count = _labelled(pool > -np.inf)
-        if not count:
+        numbers = regions(pool > -np.inf)
+        if not numbers.any():
             return None
         chosen = numbers == int(np.argmax(np.bincount(numbers.ravel())[1:])) + 1
         nodes = self._with_shore(chosen, pool)
@@ -270,14 +270,6 @@ def _at(values: npt.NDArray[Any], nodes: FloatArray, *, outside: float) -> npt.N
     within = np.all((nodes >= 0) & (nodes < shape), axis=1)
     index = np.where(within[:, None], nodes, 0).astype(np.int64)
     return np.where(within, values[tuple(index.T)], outside)
-
-
-def _labelled(mask: BoolArray) -> tuple[IntArray, int]:
-    # Imported here: not every log asks for it.
-    from scipy import ndimage  # pyright: ignore[reportMissingTypeStubs]
-
-    numbers, count = cast(Any, ndimage).label(mask)
-    return numbers, int(count)
 
 
 def _dilated(mask: BoolArray) -> BoolArray:

@@ -1,10 +1,10 @@
-"""Nodes of a grid and all others that free ways of some steps lead to."""
+"""Nodes of a grid, all others that free ways of some steps lead to, and regions of nodes that hang together."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from prolepsis.geometry.shape import BoolArray
+from prolepsis.geometry.shape import BoolArray, IntArray
 from prolepsis.system.kernels import njit
 
 
@@ -40,4 +40,43 @@ def spread(nodes: BoolArray, free: BoolArray, steps: int) -> BoolArray:
                             queue[end, 0], queue[end, 1], queue[end, 2] = u, v, w
                             end += 1
         begin = last
+    return found
+
+
+@njit(cache=True)
+def regions(nodes: BoolArray) -> IntArray:
+    """Return the number of the region that each node is in, 0 at the others, shape (nx, ny, nz).
+
+    Nodes side by side are in one region. They are numbered from 1, in the order of their first nodes.
+
+    Args:
+        nodes: Which nodes are in any, shape (nx, ny, nz).
+    """
+    nx, ny, nz = nodes.shape
+    found = np.zeros(nodes.shape, dtype=np.int64)
+    inside, numbers = nodes.ravel(), found.ravel()
+    stack = np.empty(len(inside), dtype=np.int32)
+    count = 0
+    for first in range(len(inside)):
+        if not inside[first] or numbers[first] != 0:
+            continue
+        count += 1
+        numbers[first] = count
+        stack[0], height = first, 1
+        while height > 0:
+            height -= 1
+            n = stack[height]
+            i, j, k = n // (ny * nz), n // nz % ny, n % nz
+            for offset, within in (
+                (-ny * nz, i > 0),
+                (ny * nz, i < nx - 1),
+                (-nz, j > 0),
+                (nz, j < ny - 1),
+                (-1, k > 0),
+                (1, k < nz - 1),
+            ):
+                if within and inside[n + offset] and numbers[n + offset] == 0:
+                    numbers[n + offset] = count
+                    stack[height] = n + offset
+                    height += 1
     return found
