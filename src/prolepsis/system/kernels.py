@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import hashlib
 import os
-import pickle
 import sys
 from collections.abc import Callable
 from functools import lru_cache, update_wrapper
@@ -21,6 +20,8 @@ from prolepsis.system.sources import digest_of
 
 ROOMS = ("geometry", "fluents", "matter/liquids", "report", "scene/shapes")
 """Folders of the package that have kernels or kept arrays, with what is below them."""
+FORM = 2
+"""Raised when what is kept of a kernel is written otherwise (``linking``)."""
 MADE_BY = ("numba", "llvmlite", "numpy", "scipy", "coacd")
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -71,21 +72,19 @@ class _Kept:
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """Return the kernel compiled for a signature, or None."""
-        from numba.core.compiler import CompileResult  # pyright: ignore[reportMissingTypeStubs]
-        from numba.core.runtime.nrt import rtsys  # pyright: ignore[reportMissingTypeStubs]
+        from prolepsis.system.linking import linked
 
-        # What is compiled needs numba's memory, but not its declarations, which take most of the time to load.
-        cast(Any, rtsys).initialize(target_context)
-        content = read_kept(self._file(sig, target_context.codegen()))
         # Its seal has been checked; nothing else may come here.
-        return None if content is None else cast(Any, CompileResult)._rebuild(target_context, *pickle.loads(content))
+        content = read_kept(self._file(sig, target_context.codegen()))
+        return None if content is None else linked(content, target_context)
 
     def save_overload(self, sig: Any, data: Any) -> None:
         """Keep what was compiled for a signature."""
-        from numba.core import serialize  # pyright: ignore[reportMissingTypeStubs]
+        from prolepsis.system.linking import packed
 
-        if not data.library.has_dynamic_globals and all(lifted.can_cache for lifted in data.lifted):
-            keep(self._file(sig, data.codegen), cast(Any, serialize).dumps(data._reduce()))
+        content = packed(data)
+        if content is not None:
+            keep(self._file(sig, data.codegen), content)
 
     def enable(self) -> None:
         """It is always."""
@@ -98,7 +97,7 @@ class _Kept:
 
     def _file(self, sig: Any, codegen: Any) -> Path:
         function = self._function
-        key = repr((function.__module__, function.__qualname__, sig, codegen.magic_tuple()))
+        key = repr((FORM, function.__module__, function.__qualname__, sig, codegen.magic_tuple()))
         return _folder() / f"{function.__name__}-{hashlib.sha256(key.encode()).hexdigest()[:32]}"
 
 
