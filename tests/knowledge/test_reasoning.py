@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -40,14 +41,16 @@ def test_a_kept_answer_is_used_and_an_altered_one_is_not(tmp_path: Path, monkeyp
     cache = tmp_path / "cache"
     monkeypatch.setenv("PROLEPSIS_CACHE", str(cache))
     right = load(tmp_path, TOY).classes("egg1")
-    (kept,) = cache.iterdir()
+    (kept,) = cache.glob("*.json")
     whole = kept.read_text()
     seal, body = whole.split("\n", 1)
     for wrong in (f'{seal}\n"empty class"', seal, "", f"{'0' * 64}\n{body}"):
         kept.write_text(wrong)
+        shutil.rmtree(cache / "read")
         assert load(tmp_path, TOY).classes("egg1") == right
         assert kept.read_text() == whole
     monkeypatch.setenv("PROLEPSIS_REASONER_SECONDS", "0.0001")
+    shutil.rmtree(cache / "read")
     assert load(tmp_path, TOY).unchecked == ""
 
 
@@ -55,12 +58,13 @@ def test_a_kept_answer_of_another_question_is_not_taken(tmp_path: Path, monkeypa
     cache = tmp_path / "cache"
     monkeypatch.setenv("PROLEPSIS_CACHE", str(cache))
     load(tmp_path, TOY)
-    (first,) = cache.iterdir()
+    (first,) = cache.glob("*.json")
     other = TOY.replace(":Ball", ":Sponge")
     load(tmp_path, other)
-    (second,) = (path for path in cache.iterdir() if path != first)
+    (second,) = (path for path in cache.glob("*.json") if path != first)
     right = second.read_text()
     second.write_text(first.read_text())
+    shutil.rmtree(cache / "read")
     load(tmp_path, other)
     assert second.read_text() == right != first.read_text()
 

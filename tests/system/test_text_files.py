@@ -15,8 +15,8 @@ import pytest
 
 from prolepsis.geometry.meshes import MOST_BYTES as LONGEST_MESH
 from prolepsis.geometry.meshes import read_surface
-from prolepsis.knowledge.turtle import LONGEST_FILE as LONGEST_TURTLE
-from prolepsis.knowledge.turtle import read_turtle
+from prolepsis.knowledge.sources import LONGEST_FILE as LONGEST_TURTLE
+from prolepsis.knowledge.sources import read_source
 from prolepsis.logic.rules import LONGEST_RULES, read_rules
 from prolepsis.programs.recording import MOST_BYTES as LONGEST_RECORDING
 from prolepsis.programs.recording import read_recording
@@ -30,7 +30,7 @@ Reader = Callable[[Path], object]
 
 READERS: dict[str, tuple[Reader, str, int]] = {
     "scenario": (Scenario.load, ".toml", LONGEST_SCENARIO),
-    "Turtle file": (read_turtle, ".ttl", LONGEST_TURTLE),
+    "Turtle file": (read_source, ".ttl", LONGEST_TURTLE),
     "file": (read_rules, ".pl", LONGEST_RULES),
     "recording": (lambda path: read_recording(path, ()), ".csv", LONGEST_RECORDING),
     "robot file": (read_model_tree, ".xml", LONGEST_ROBOT),

@@ -10,7 +10,8 @@ from rdflib import OWL, RDF, RDFS, XSD, BNode, Literal, Namespace, URIRef
 from rdflib.collection import Collection
 from rdflib.term import Node
 
-from prolepsis.knowledge.turtle import NAMESPACE, Document, local_name
+from prolepsis.knowledge.sources import NAMESPACE
+from prolepsis.knowledge.turtle import Document, local_name
 from prolepsis.knowledge.vocabulary import CERTAINTIES, ClassEntry, Curve, Default, DefaultPart, Property, Vocabulary
 from prolepsis.knowledge.written import read_value
 from prolepsis.terms.errors import KnowledgeError, brief

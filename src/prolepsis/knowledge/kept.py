@@ -1,9 +1,10 @@
-"""Kept answers of the reasoner: files in the user's cache folder, each under the hash of what was asked, and sealed."""
+"""Kept answers: files in the user's cache folder, each under the hash of what was asked, and sealed."""
 
 from __future__ import annotations
 
 import json
 import os
+from contextlib import suppress
 from pathlib import Path
 from typing import cast
 
@@ -11,6 +12,8 @@ from prolepsis.system.cache import cache_root, keep, read_kept
 
 CACHE_VARIABLE = "PROLEPSIS_CACHE"
 """Environment variable: folder of the kept answers, or empty to keep none."""
+MOST_READINGS = 100
+"""What was read of so many situations is kept, some 50 kB of each."""
 
 
 def _cache_folder() -> Path | None:
@@ -32,3 +35,22 @@ def keep_answer(key: str, answer: list[int] | str) -> None:
     folder = _cache_folder()
     if folder is not None:
         keep(folder / f"{key}.json", json.dumps(answer).encode())
+
+
+def read_reading(key: str) -> bytes | None:
+    """Return what was kept of all that some Turtle files say, or None."""
+    folder = _cache_folder()
+    return None if folder is None else read_kept(folder / "read" / key)
+
+
+def keep_reading(key: str, content: bytes) -> None:
+    """Keep what some Turtle files say for the next time, and of others what is newest."""
+    folder = _cache_folder()
+    if folder is None:
+        return
+    keep(folder / "read" / key, content)
+    # Others may do the same meanwhile.
+    with suppress(OSError):
+        files = sorted((folder / "read").iterdir(), key=lambda each: each.stat().st_mtime)
+        for old in files[:-MOST_READINGS]:
+            old.unlink(missing_ok=True)

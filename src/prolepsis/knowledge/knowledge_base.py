@@ -6,17 +6,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from prolepsis.knowledge.declarations import read_vocabulary
 from prolepsis.knowledge.deriving import derive, masses_of
 from prolepsis.knowledge.describing import describe
 from prolepsis.knowledge.drawing import draw
-from prolepsis.knowledge.reasoning import Types, infer_types
-from prolepsis.knowledge.situation import INVERSES, Situation, Statement, read_situation
-from prolepsis.knowledge.spelling import refuse_unknown_names
-from prolepsis.knowledge.turtle import Document, documents_of
+from prolepsis.knowledge.inferred import Types
+from prolepsis.knowledge.reading import infer, read
+from prolepsis.knowledge.situation import INVERSES, Situation, Statement
+from prolepsis.knowledge.sources import Source, sources_of
 from prolepsis.knowledge.values import Known
 from prolepsis.knowledge.vocabulary import Default, Vocabulary
-from prolepsis.knowledge.written import read_value
 from prolepsis.log.domain import Domain
 from prolepsis.system.text_files import path_of
 from prolepsis.terms.errors import KnowledgeError, UnknownNameError, brief
@@ -32,13 +30,13 @@ class KnowledgeBase:
     """Individuals and what is said of them."""
     types: Types
     """Inferred classes."""
-    documents: tuple[Document, ...]
+    sources: tuple[Source, ...]
     """The Turtle files."""
     overrides: Mapping[tuple[str, str], Known]
     """(individual, property) to a value that replaces whatever else is known."""
 
     @classmethod
-    def load(cls, *sources: Path | str | Document, check: bool = True, most: int | None = None) -> KnowledgeBase:
+    def load(cls, *sources: Path | str | Source, check: bool = True, most: int | None = None) -> KnowledgeBase:
         """Return the knowledge base of the built-in ontology and further Turtle files.
 
         Args:
@@ -51,14 +49,9 @@ class KnowledgeBase:
             KnowledgeError: If a file, a value or the structure of parts is wrong.
             InconsistentError: If the axioms contradict each other.
         """
-        documents = documents_of(
-            [s if isinstance(s, Document) else path_of(s, "Turtle file", KnowledgeError) for s in sources]
-        )
-        vocabulary = read_vocabulary(documents)
-        refuse_unknown_names(documents, vocabulary)
-        situation = read_situation(documents, vocabulary, most)
-        types = infer_types(documents, vocabulary, situation, check=check)
-        base = cls(vocabulary=vocabulary, situation=situation, types=types, documents=documents, overrides={})
+        texts = sources_of([s if isinstance(s, Source) else path_of(s, "Turtle file", KnowledgeError) for s in sources])
+        vocabulary, situation, types = read(texts, check=check, most=most)
+        base = cls(vocabulary=vocabulary, situation=situation, types=types, sources=texts, overrides={})
         if check:
             base._refuse_impossible_values()
         return base
@@ -181,6 +174,8 @@ class KnowledgeBase:
             UnknownNameError: If an individual or property does not exist.
             KnowledgeError: If a value is wrong.
         """
+        from prolepsis.knowledge.written import read_value
+
         overrides: dict[tuple[str, str], Known] = {}
         for key, value in values.items():
             name, dot, property_name = key.rpartition(".")
@@ -229,7 +224,7 @@ class KnowledgeBase:
             Statement(subject=n, property=p, value=k.value, where=k.origin) for (n, p), k in overrides.items()
         ]
         situation = replace(self.situation, statements=tuple(statements))
-        types = infer_types(self.documents, self.vocabulary, situation, check=True)
+        types = infer(self.sources, self.vocabulary, situation)
         changed = replace(self, situation=situation, types=types, overrides=overrides)
         changed._refuse_impossible_values()
         return changed

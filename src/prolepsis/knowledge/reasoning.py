@@ -18,6 +18,7 @@ from prolepsis.knowledge.alike import alike, counts_along_chains
 from prolepsis.knowledge.axioms import Axiom, assertions, terminology
 from prolepsis.knowledge.chaining import MOST_STEPS, Chaining, StepsError, chain, clashes, clashing, is_whole
 from prolepsis.knowledge.conflict import smallest_conflict
+from prolepsis.knowledge.inferred import Types
 from prolepsis.knowledge.kept import keep_answer, read_answer
 from prolepsis.knowledge.reasoner import LIMIT_VARIABLE, Budget, is_consistent
 from prolepsis.knowledge.situation import Situation
@@ -56,29 +57,6 @@ def denials(probes: tuple[Probe, ...]) -> tuple[Axiom, ...]:
     names = [Axiom(f"Declaration(Class(<{c}/not>))") for c in classes]
     names += [Axiom(f"DisjointClasses(<{c}> <{c}/not>)") for c in classes]
     return (*names, *(Axiom(f"ClassAssertion(<{p.class_iri}/not> <{p.individual}>)") for p in probes))
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Types:
-    """What the reasoner found out."""
-
-    classes: Mapping[str, tuple[str, ...]]
-    """Individual to its named classes, sorted."""
-    vocabulary: Vocabulary
-    """The classes."""
-    unchecked: str = ""
-    """Why it is not known whether the knowledge base contradicts itself, and whether more follows; empty if it is."""
-
-    def superclasses(self, name: str) -> tuple[str, ...]:
-        """Return the named classes that are more general than ``name``."""
-        return tuple(above for above in self.vocabulary.told_classes((name,)) if above != name)
-
-    def kind(self, classes: tuple[str, ...], vocabulary: Vocabulary) -> str:
-        """Return the most specific of ``classes`` that is not defined, or else the most specific one."""
-        plain = [c for c in classes if not vocabulary.classes[c].defined] or list(classes)
-        higher = {c for o in plain for c in self.superclasses(o)}
-        lowest = [c for c in plain if c not in higher]
-        return sorted(lowest or plain)[0]
 
 
 def infer_types(documents: tuple[Document, ...], vocabulary: Vocabulary, situation: Situation, *, check: bool) -> Types:

@@ -7,7 +7,8 @@ from rdflib.term import Node
 
 from prolepsis.knowledge.declarations import PRO
 from prolepsis.knowledge.naming import refuse_unusable_names
-from prolepsis.knowledge.turtle import NAMESPACE, Document, local_name
+from prolepsis.knowledge.sources import NAMESPACE
+from prolepsis.knowledge.turtle import Document, local_name
 from prolepsis.knowledge.vocabulary import Vocabulary
 from prolepsis.terms.errors import UnknownNameError
 

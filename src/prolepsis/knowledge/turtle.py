@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -13,19 +13,11 @@ from rdflib import Graph, URIRef
 from rdflib.exceptions import ParserError
 from rdflib.plugins.parsers.notation3 import BadSyntax
 
-from prolepsis.system.text_files import read_text
+from prolepsis.knowledge.sources import Source, built_in_sources
 from prolepsis.terms.errors import KnowledgeError, brief
 
 # Its warnings about literals come with tracebacks; what matters of them is told where a value is read.
 logging.getLogger("rdflib").addHandler(logging.NullHandler())
-
-LONGEST_FILE = 16_000_000
-"""Longest Turtle file [bytes]; one of so many takes a minute to read."""
-NAMESPACE = "https://w3id.org/prolepsis#"
-"""Every name of the ontology begins with this."""
-
-ONTOLOGY_FOLDER = Path(__file__).parent / "ontology"
-"""The Turtle files that belong to every knowledge base."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -66,22 +58,13 @@ def local_name(iri: URIRef) -> str:
     return re.split(r"[#/]", str(iri))[-1]
 
 
-def read_turtle(path: Path, *, built_in: bool = False) -> Document:
-    """Read one Turtle file.
-
-    Raises:
-        KnowledgeError: If the file cannot be read or its syntax is wrong.
-    """
-    text = read_text(path, "Turtle file", most=LONGEST_FILE, error=KnowledgeError)
-    return parse_turtle(text, path, built_in=built_in)
-
-
-def parse_turtle(text: str, path: Path, *, built_in: bool = False) -> Document:
-    """Return the document that ``text`` is; ``path`` is where it is from.
+def parse_turtle(source: Source) -> Document:
+    """Return the document that is written.
 
     Raises:
         KnowledgeError: If its syntax is wrong.
     """
+    path, text = source.path, source.text
     graph = Graph(bind_namespaces="none")
     try:
         graph.parse(data=text, format="turtle", publicID=path.absolute().as_uri())
@@ -94,13 +77,14 @@ def parse_turtle(text: str, path: Path, *, built_in: bool = False) -> Document:
     except (LookupError, AttributeError, TypeError, AssertionError, ArithmeticError) as error:
         # The parser stumbles over a text that ends, or turns to something else, where it does not look.
         raise KnowledgeError(f"{path}: Turtle syntax: a statement does not end as it must") from error
-    return Document(path=path, graph=graph, built_in=built_in, lines=first_lines(text))
+    lines = first_lines(text if source.numbered else "")
+    return Document(path=path, graph=graph, built_in=source.built_in, lines=lines)
 
 
 @cache
 def built_in_documents() -> tuple[Document, ...]:
     """Return the files of the ontology that comes with the package, sorted by name."""
-    return tuple(read_turtle(path, built_in=True) for path in sorted(ONTOLOGY_FOLDER.glob("*.ttl")))
+    return tuple(map(parse_turtle, built_in_sources()))
 
 
 def _reason(error: BadSyntax) -> str:
@@ -108,8 +92,3 @@ def _reason(error: BadSyntax) -> str:
     why = brief(error._why)  # pyright: ignore[reportPrivateUsage]
     # One word: the file may be one that was not meant to be shown.
     return f"{why} at {brief(repr(rest.split()[0]), 24)}" if rest else why
-
-
-def documents_of(sources: Sequence[Path | Document]) -> tuple[Document, ...]:
-    """Return the built-in ontology and then the files at the paths in ``sources``, or what was read already."""
-    return (*built_in_documents(), *(s if isinstance(s, Document) else read_turtle(s) for s in sources))

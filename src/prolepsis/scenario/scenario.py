@@ -12,7 +12,7 @@ from pathlib import Path
 
 from prolepsis.knowledge import KnowledgeBase
 from prolepsis.knowledge.situation import MOST_INDIVIDUALS
-from prolepsis.knowledge.turtle import Document, parse_turtle
+from prolepsis.knowledge.sources import Source
 from prolepsis.scenario.file import DEFAULT_PARTICLES, ParameterTable, read_file, read_robot
 from prolepsis.scenario.own_robot import OwnRobot
 from prolepsis.system.text_files import is_file, path_of
@@ -215,11 +215,11 @@ class Scenario:
         base = base.with_values(self.knowledge) if self.knowledge else base
         return base.with_draws(self.seed) if self.draw else base
 
-    def _robot_sources(self) -> list[Path | Document]:
+    def _robot_sources(self) -> list[Path | Source]:
         """Return what says that the robot is there."""
         if isinstance(self.robot, OwnRobot):
             # These lines are in no file.
-            return [replace(parse_turtle(self.robot.statements(self.path), self.path), lines={})]
+            return [Source(path=self.path, text=self.robot.statements(self.path), numbered=False)]
         file = ROBOTS.get(self.robot or "")
         return [] if file is None else [file]
 

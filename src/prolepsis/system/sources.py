@@ -9,8 +9,16 @@ from pathlib import Path
 
 def digest_of(known: object, files: Iterable[Path]) -> str:
     """Return a digest of what else is known, by its ``repr``, and of the names and contents of files in any order."""
+    return _digest(known, ((file.name, file.read_bytes()) for file in sorted(files)))
+
+
+def digest_of_texts(known: object, texts: Iterable[tuple[object, str]]) -> str:
+    """Return a digest of what else is known, and of texts in their order with what is known of each."""
+    return _digest(known, ((each, text.encode("utf-8", "surrogatepass")) for each, text in texts))
+
+
+def _digest(known: object, contents: Iterable[tuple[object, bytes]]) -> str:
     digest = hashlib.sha256(ascii(known).encode())
-    for file in sorted(files):
-        content = file.read_bytes()
-        digest.update(f"\n{ascii(file.name)} {len(content)}\n".encode() + content)
+    for name, content in contents:
+        digest.update(f"\n{ascii(name)} {len(content)}\n".encode() + content)
     return digest.hexdigest()
