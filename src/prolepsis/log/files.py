@@ -23,7 +23,8 @@ from prolepsis.terms.terms import Term, format_value
 
 HEAD = "log.json"
 """Tick, gravity, things, actions and the spacing of the particles: what is no column."""
-_EXACTLY = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+# Built when a log is read, which most runs never do.
+_EXACTLY = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False, defer_build=True)
 _TICKS, _POSES, _CONTACTS = "ticks.parquet", "poses.parquet", "contacts.parquet"
 _JOINTS, _HAPPENINGS = "joints.parquet", "happenings_{}.parquet"
 _FRAMES, _KINDS, _POSITIONS = "particle_frames.parquet", "particle_kinds.parquet", "particles.parquet"

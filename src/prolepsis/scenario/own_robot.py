@@ -13,7 +13,8 @@ from pydantic.dataclasses import dataclass
 
 from prolepsis.terms.errors import ScenarioError
 
-STRICT = ConfigDict(extra="forbid")
+STRICT = ConfigDict(extra="forbid", defer_build=True)
+"""Most runs are of no such robot, and to build what checks it takes as long as to read a scenario."""
 _NAME = re.compile(r"[a-z]\w*", re.ASCII)
 _Number = Annotated[float, Field(ge=-1.0e4, le=1.0e4)]
 """A coordinate or a direction [m, rad or 1]."""
