@@ -143,13 +143,13 @@ def _exit_shares(
     What leaves fast is deep in the hollow in one frame and far above the rim in the next, so its whole way counts.
     """
     frame, particle = passages.frame[during], passages.particle[during]
-    # Without a spill level nothing is kept, and whatever leaves runs out over the rim.
-    rim = np.nan_to_num(inside.brim(), nan=-np.inf) - BELOW_RIM * seen.particles.spacing
     through = np.ones(len(frame), dtype=np.bool_)
     at, going = frame.copy(), np.arange(len(frame))
     while len(going):
         now, who = at[going], particle[going]
-        through[going] &= seen.particles.position[now, who].astype(np.float64) @ observation.up < rim[now]
+        # Without a spill level nothing is kept, and whatever leaves runs out over the rim.
+        rim = np.nan_to_num(inside.brim(now), nan=-np.inf) - BELOW_RIM * seen.particles.spacing
+        through[going] &= seen.particles.position[now, who].astype(np.float64) @ observation.up < rim
         going = going[through[going] & ((now == frame[going]) | inside.near[now, who])]
         at[going] += 1
     share = seen.share[particle]

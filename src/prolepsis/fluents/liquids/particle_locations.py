@@ -58,15 +58,16 @@ class Rim:
     levels: dict[int, float]
     """Spill levels that are known, by direction [m], in the shape's frame; minus infinity where nothing would stay."""
 
-    def brim(self) -> FloatArray:
-        """Return the height of the spill level in each frame [m], world frame, shape (F,); NaN where there is none."""
-        found = np.full(len(self.base), np.nan)
-        for direction in np.unique(self.which[self.during]).tolist():
+    def brim(self, frames: IntArray) -> FloatArray:
+        """Return the height of the spill level in some frames [m], world frame, shape (N,); NaN where there is none."""
+        found = np.full(len(frames), np.nan)
+        during, which = self.during[frames], self.which[frames]
+        for direction in np.unique(which[during]).tolist():
             if direction not in self.levels:
                 self.levels[direction] = float(self.space.pools(self.up[direction], self.plug).max())
             if self.levels[direction] > -np.inf:
-                at = self.during & (self.which == direction)
-                found[at] = self.levels[direction] + self.base[at]
+                at = during & (which == direction)
+                found[at] = self.levels[direction] + self.base[frames[at]]
         return found
 
     def capacity(self, frame: int) -> float:
@@ -92,11 +93,11 @@ class Inside:
     rims: tuple[Rim, ...]
     """Of the rigid shapes that the unit was."""
 
-    def brim(self) -> FloatArray:
-        """Return the height of the spill level in each frame, holes stopped [m], shape (F,); NaN where none is."""
-        found = self.rims[0].brim()
+    def brim(self, frames: IntArray) -> FloatArray:
+        """Return the height of the spill level in some frames, holes stopped [m], shape (N,); NaN where none is."""
+        found = self.rims[0].brim(frames)
         for rim in self.rims[1:]:
-            found = np.fmax(found, rim.brim())
+            found = np.fmax(found, rim.brim(frames))
         return found
 
     def capacity(self, frame: int) -> float:
