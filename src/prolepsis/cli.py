@@ -30,6 +30,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             import signal
 
             signal.signal(signal.SIGINT, _interrupt)
+            # MuJoCo would start a process to look for a window system; what draws opens OpenGL by itself.
+            os.environ.setdefault("MUJOCO_GL", "off")
         status = _answer(given)
     except KeyboardInterrupt:
         status = _tell("interrupted; nothing was written", INTERRUPTED)

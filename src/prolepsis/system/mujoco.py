@@ -11,11 +11,11 @@ try:
     import mujoco as _mujoco  # pyright: ignore[reportMissingTypeStubs]
 # It imports OpenGL, too, whose faults have many shapes.
 except (ImportError, RuntimeError, AttributeError, OSError, TypeError) as error:
-    chosen = os.environ.get("MUJOCO_GL")
+    chosen = os.environ.get("MUJOCO_GL", "off")
     cause = (
-        f"cannot be imported ({brief(error)})" if chosen is None else f"does not start with MUJOCO_GL={brief(chosen)}"
+        f"cannot be imported ({brief(error)})" if chosen == "off" else f"does not start with MUJOCO_GL={brief(chosen)}"
     )
-    cure = "pip install mujoco" if chosen is None else "unset MUJOCO_GL, or set it to egl or osmesa"
+    cure = "pip install mujoco" if chosen == "off" else "unset MUJOCO_GL, or set it to egl or osmesa"
     raise MissingToolError(f"MuJoCo {cause}; {cure}") from error
 
 mujoco: Any = _mujoco
