@@ -24,9 +24,10 @@ from prolepsis.log import sealed
 from prolepsis.log import tables as log_tables
 from prolepsis.log.domain import Domain
 from prolepsis.log.files import read_log, write_log, write_log_files
+from prolepsis.log.json_text import to_json
 from prolepsis.log.log import Log
 from prolepsis.log.saved import read_timeline, write_timeline_files
-from prolepsis.log.sealed import MANIFEST, read_sealed, to_json, write_sealed
+from prolepsis.log.sealed import MANIFEST, read_sealed, write_sealed
 from prolepsis.log.tables import read_table, write_table
 from prolepsis.log.timeline import Fact, make_timeline
 from prolepsis.projection import Projection

@@ -215,6 +215,8 @@ def _particles(head: _Particles | None, path: Path, thing_count: int, tick_count
 
 def _plain(value: Any) -> Any:
     """Return a thing or what its shape consists of as JSON values, fields at their defaults included."""
+    if type(value) in (float, str, int, bool):
+        return value
     if isinstance(value, Thing | Mount | Shape | Geom | Hole | Surface):
         return {each.name: _plain(getattr(value, each.name)) for each in fields(value)}
     if isinstance(value, frozenset):

@@ -18,6 +18,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, cast
 
+from prolepsis.log.json_text import to_json
 from prolepsis.system import aside
 from prolepsis.system.text_files import path_of
 from prolepsis.terms.errors import InputError, LogError, Note, brief
@@ -142,17 +143,6 @@ def write_json(file: Path, value: Any) -> None:
         InputError: If it is too large.
     """
     write_text(file, to_json(value))
-
-
-def to_json(value: Any) -> str:
-    """Return readable JSON that is byte-equal for equal values."""
-    return json.dumps(value, indent=1, sort_keys=True, ensure_ascii=False, allow_nan=False, default=_plain) + "\n"
-
-
-def _plain(value: Any) -> Any:
-    if hasattr(value, "item"):  # a numpy scalar
-        return value.item()
-    raise TypeError(f"{type(value).__name__} cannot be written as JSON")
 
 
 def _versions() -> Mapping[str, str]:
