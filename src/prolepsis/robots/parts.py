@@ -6,19 +6,24 @@ from typing import Any
 
 import numpy as np
 
+from prolepsis.geometry.shape import FloatArray
 from prolepsis.system.mujoco import mujoco
 
 
 def follow_couplings(model: Any, data: Any) -> None:
     """Set the joints that equalities couple to others; kinematics alone does not."""
+    joint, powers = int(mujoco.mjtEq.mjEQ_JOINT), np.arange(5)
+    coupled: list[tuple[int, int, FloatArray]] = []
+    for equality in range(model.neq):
+        if int(model.eq_type[equality]) != joint or model.eq_obj2id[equality] < 0:
+            continue
+        first, second = (int(model.jnt_qposadr[i[equality]]) for i in (model.eq_obj1id, model.eq_obj2id))
+        coupled.append((first, second, np.asarray(model.eq_data[equality][:5])))
+    start, now = model.qpos0, data.qpos
     for _ in range(3):
-        for equality in range(model.neq):
-            if int(model.eq_type[equality]) != int(mujoco.mjtEq.mjEQ_JOINT) or model.eq_obj2id[equality] < 0:
-                continue
-            first, second = (model.jnt_qposadr[i[equality]] for i in (model.eq_obj1id, model.eq_obj2id))
-            away = float(data.qpos[second] - model.qpos0[second])
-            shape = np.asarray(model.eq_data[equality][:5])
-            data.qpos[first] = model.qpos0[first] + float(shape @ away ** np.arange(5))
+        for first, second, shape in coupled:
+            away = float(now[second] - start[second])
+            now[first] = start[first] + float(shape @ away**powers)
 
 
 def pad_geoms(model: Any, pad: str) -> list[int]:
