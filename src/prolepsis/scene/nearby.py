@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from prolepsis.geometry.rotations import matrix
-from prolepsis.geometry.shape import FloatArray
+from prolepsis.geometry.shape import FloatArray, Shape
 from prolepsis.geometry.signed_distance import field_of
 from prolepsis.geometry.solids import bounded
 from prolepsis.scene.running import Running
@@ -28,12 +30,19 @@ def touched(state: Running, index: int, points: FloatArray, reach: float) -> boo
     shape = state.scene.things[index].shape
     pose = state.pose(state.scene.things[index].name)
     local = (points - pose[:3]) @ matrix(pose[3:])
-    solids = bounded(shape)
-    if len(solids) == len(shape.geoms):
-        low, high = np.array([solid.bounds() for solid in solids]).swapaxes(0, 1)
-        within = (local > low.min(axis=0) - reach) & (local < high.max(axis=0) + reach)
-        local = local[within.all(axis=1)]
+    low, high = _box(shape)
+    local = local[((local > low - reach) & (local < high + reach)).all(axis=1)]
     return bool((field_of(shape).distance(local) < reach).any())
+
+
+@lru_cache(maxsize=4096)
+def _box(shape: Shape) -> tuple[FloatArray, FloatArray]:
+    """Return the least and greatest coordinates of a shape in its thing's frame [m], each of shape (3,)."""
+    solids = bounded(shape)
+    if len(solids) < len(shape.geoms):
+        return np.full(3, -np.inf), np.full(3, np.inf)
+    low, high = np.array([solid.bounds() for solid in solids]).swapaxes(0, 1)
+    return low.min(axis=0), high.max(axis=0)
 
 
 def distance_to(state: Running, index: int, points: FloatArray) -> FloatArray:

@@ -48,6 +48,12 @@ class Scene:
     """[m/s^2]"""
     folder: Path = Path()
     """Where the paths of files start that a plan names, while it is read."""
+    _numbers: Mapping[str, int] = field(init=False, repr=False, compare=False)
+    """Position of each thing by its name."""
+
+    def __post_init__(self) -> None:
+        """Number the things."""
+        object.__setattr__(self, "_numbers", {thing.name: i for i, thing in enumerate(self.things)})
 
     @property
     def robots(self) -> Mapping[str, Robot]:
@@ -60,14 +66,18 @@ class Scene:
         Raises:
             UnknownNameError: If there is none.
         """
-        for thing in self.things:
-            if thing.name == name:
-                return thing
-        raise UnknownNameError.of("object", name, (t.name for t in self.things if t.whole is None))
+        return self.things[self.index(name)]
 
     def index(self, name: str) -> int:
-        """Return the position of the thing called ``name`` among ``things``."""
-        return self.things.index(self.thing(name))
+        """Return the position of the thing called ``name`` among ``things``.
+
+        Raises:
+            UnknownNameError: If there is none.
+        """
+        number = self._numbers.get(name)
+        if number is None:
+            raise UnknownNameError.of("object", name, (t.name for t in self.things if t.whole is None))
+        return number
 
     def each(self, type: type[Part]) -> tuple[Part, ...]:
         """Return all parts that are of a type."""

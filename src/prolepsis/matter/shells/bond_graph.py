@@ -18,6 +18,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from prolepsis.geometry.rotations import cross
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 
 HINGE = 1.0e-3
@@ -250,7 +251,7 @@ def _strain(graph: BondGraph) -> tuple[FloatArray, FloatArray]:
     normal = graph.normals[first] + graph.normals[second]
     normal -= (normal * x).sum(axis=1)[:, None] * x
     z = normal / np.linalg.norm(normal, axis=1)[:, None]
-    y = np.cross(z, x)
+    y = cross(z, x)
     axes = np.stack([x, y, z], axis=1)
     middle = (graph.centres[first] + graph.centres[second]) / 2
     m, n = len(first), len(graph.nodes)
@@ -261,8 +262,7 @@ def _strain(graph: BondGraph) -> tuple[FloatArray, FloatArray]:
         strain[rows, :3, node, :3] = sign * axes
         # u_middle = u + theta x arm, so the columns for theta are axes . (e_k x arm).
         for k in range(3):
-            turned = np.cross(np.eye(3)[k], arm)
-            strain[rows, :3, node, 3 + k] = sign * np.einsum("mij,mj->mi", axes, turned)
+            strain[rows, :3, node, 3 + k] = sign * np.einsum("mij,mj->mi", axes, _about_axis(k, arm))
         strain[rows, 3:, node, 3:] = sign * axes
     return strain.reshape(6 * m, 6 * n), _stiffness(graph)
 
@@ -300,5 +300,13 @@ def _rigid_modes(centres: FloatArray) -> FloatArray:
     modes[:, :3, :3] = np.eye(3)
     modes[:, 3:, 3:] = np.eye(3)
     for k in range(3):
-        modes[:, :3, 3 + k] = np.cross(np.eye(3)[k], centres)
+        modes[:, :3, 3 + k] = _about_axis(k, centres)
     return modes.reshape(6 * n, 6)
+
+
+def _about_axis(k: int, points: FloatArray) -> FloatArray:
+    """Return the cross products of the k-th unit vector with points, shape (n, 3)."""
+    i, j = (k + 1) % 3, (k + 2) % 3
+    found = np.zeros_like(points)
+    found[:, i], found[:, j] = -points[:, j], points[:, i]
+    return found
