@@ -362,9 +362,10 @@ class State:
         """Return the force of each active joint at a point on its first body, world frame [N], by its number."""
         data = self.data
         rows = int(data.ne)
-        numbers, forces = data.efc_id[:rows], data.efc_force[:rows]
-        # A joint at a point has three rows of its own.
-        return {int(number): forces[numbers == number] for number in np.unique(numbers)}
+        numbers, forces = data.efc_id[:rows].tolist(), data.efc_force[:rows].copy()
+        # A joint at a point has three rows of its own, one after the other.
+        begins = [k for k in range(rows) if not k or numbers[k] != numbers[k - 1]]
+        return {numbers[k]: forces[k:end] for k, end in zip(begins, [*begins[1:], rows], strict=True)}
 
     def _rebuild(self) -> None:
         """Compile the model anew from the spec; the rest of the state is carried over."""

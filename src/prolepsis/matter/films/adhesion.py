@@ -64,6 +64,9 @@ class Adhesion(Controller):
         self.holds: list[AdhesiveJoint] = []
         self._joined: list[AdhesiveJoint] = []
         self._numbers: list[int] = []
+        self._bodies: dict[int, int] = {}
+        self._turned: dict[int, FloatArray] = {}
+        self._told: set[tuple[int, int]] = set()
 
     def stick(self, state: Running, holds: Sequence[AdhesiveJoint]) -> None:
         """Let things stick together where they are now."""
@@ -79,6 +82,8 @@ class Adhesion(Controller):
     def bind(self, state: Running) -> None:
         """Look up its joints in a model that is new."""
         self._numbers = state.joint_numbers(self)
+        self._bodies = {thing: body for body, thing in enumerate(state.body_thing.tolist()) if thing >= 0}
+        self._turned = {}
 
     def act(self, state: Running) -> None:
         """Take apart what is pulled too hard; nothing breaks by that."""
@@ -87,10 +92,12 @@ class Adhesion(Controller):
         time = float(state.data.time)
         share = min(1.0, float(state.model.opt.timestep) / JOLT)
         forces = state.joint_forces()
+        kept = {id(hold) for hold in self.holds}
+        pressed = _pressed(state) if any(hold.slides for hold in self._joined) else {}
         for joint, hold in zip(self._numbers, self._joined, strict=True):
-            if not any(kept is hold for kept in self.holds):
+            if id(hold) not in kept:
                 continue
-            if hold.slides and self._pressed(state, hold) > MOST_PRESSED * hold.strength:
+            if hold.slides and pressed.get(self._pair(state, hold), 0.0) > MOST_PRESSED * hold.strength:
                 state.data.eq_active[joint] = 0
                 hold.pull, hold.since, hold.loose = 0.0, time, True
                 continue
@@ -111,10 +118,10 @@ class Adhesion(Controller):
                 self.holds = [kept for kept in self.holds if kept is not hold]
         self._report(state)
 
-    def _pressed(self, state: Running, hold: AdhesiveJoint) -> float:
-        """Return the force with which contact presses the two bodies together [N]."""
-        bodies = {int(state.model.body(self._carrier(state, thing)).id) for thing in (hold.holder, hold.held)}
-        return sum(force for _, a, b, force in state.normal_forces() if {a, b} == bodies)
+    def _pair(self, state: Running, hold: AdhesiveJoint) -> tuple[int, int]:
+        """Return the numbers of the two bodies, the lower one first."""
+        first, second = (self._bodies[int(state.carrier[thing])] for thing in (hold.holder, hold.held))
+        return (first, second) if first < second else (second, first)
 
     def _renew(self, state: Running, hold: AdhesiveJoint) -> None:
         """Let a hold be where the two things are now, without strain."""
@@ -141,7 +148,9 @@ class Adhesion(Controller):
     def _report(self, state: Running) -> None:
         """Tell the log what sticks to what."""
         pairs = {(int(state.carrier[hold.holder]), int(state.carrier[hold.held])) for hold in self.holds}
-        state.stick(self, ((holder, held) for holder, held in pairs if holder != held))
+        if pairs != self._told:
+            self._told = pairs
+            state.stick(self, ((holder, held) for holder, held in pairs if holder != held))
 
     def _points(self, state: Running, hold: AdhesiveJoint) -> tuple[FloatArray, FloatArray]:
         """Return the point of a hold in the frames of the two bodies [m]."""
@@ -156,10 +165,21 @@ class Adhesion(Controller):
         return state.scene.things[int(state.carrier[thing])].name
 
     def _rotation(self, state: Running, thing: int) -> FloatArray:
-        return state.data.body(self._carrier(state, thing)).xmat.reshape(3, 3) @ matrix(state.offsets[thing, 3:])
+        if thing not in self._turned:
+            self._turned[thing] = matrix(state.offsets[thing, 3:])
+        return state.data.xmat[self._bodies[int(state.carrier[thing])]].reshape(3, 3) @ self._turned[thing]
 
     def _seen_from_holder(self, state: Running, hold: AdhesiveJoint) -> FloatArray:
         things = state.scene.things
         held, holder = state.pose(things[hold.held].name), state.pose(things[hold.holder].name)
         world = held[:3] + matrix(held[3:]) @ hold.point
         return (world - holder[:3]) @ matrix(holder[3:])
+
+
+def _pressed(state: Running) -> dict[tuple[int, int], float]:
+    """Return the force with which contact presses bodies together [N], by their numbers, the lower one first."""
+    found: dict[tuple[int, int], float] = {}
+    for _, first, second, force in state.normal_forces():
+        pair = (first, second) if first < second else (second, first)
+        found[pair] = found.get(pair, 0.0) + force
+    return found
