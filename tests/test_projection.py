@@ -13,6 +13,7 @@ import pytest
 
 import prolepsis
 from prolepsis.log.files import read_log, write_log
+from prolepsis.log.saved import read_timeline
 from prolepsis.projection import Projection, project
 from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.errors import InputError, LogError, UnknownNameError
@@ -119,3 +120,19 @@ def test_every_public_name_is_there_and_importing_them_is_lazy() -> None:
     assert done.stdout == "[]\n"
     with pytest.raises(AttributeError, match="no attribute 'nothing'"):
         _ = prolepsis.nothing
+
+
+def test_a_question_needs_no_tables_and_what_it_reads_is_checked(place: Path, made: Projection) -> None:
+    folder = place / "asked"
+    made.save(folder)
+    for name, asks in (("contacts.parquet", True), ("timeline.json", False)):
+        content = (folder / name).read_bytes()
+        (folder / name).write_bytes(content[:-9] + bytes([content[-9] ^ 1]) + content[-8:])
+        with pytest.raises(LogError, match=f"{name}: does not match its SHA-256"):
+            Projection.load(folder)
+        if asks:
+            assert read_timeline(folder) == made.timeline
+        else:
+            with pytest.raises(LogError, match=f"{name}: does not match"):
+                read_timeline(folder)
+        (folder / name).write_bytes(content)

@@ -24,7 +24,7 @@ def read_timeline(folder: str | Path) -> Timeline:
     Raises:
         LogError: If the folder is not whole, or holds no projection.
     """
-    return read_timeline_files(read_sealed(folder))
+    return read_timeline_files(read_sealed(folder, (DOMAIN, TIMELINE)))
 
 
 def read_timeline_files(path: Path) -> Timeline:

@@ -83,8 +83,13 @@ def write_sealed_beside(folder: str | Path, write: Callable[[Path], None]) -> Pa
         return beside
 
 
-def read_sealed(folder: str | Path) -> Path:
-    """Return the path of a sealed folder after checking every byte of its files.
+def read_sealed(folder: str | Path, reading: Collection[str] | None = None) -> Path:
+    """Return the path of a sealed folder after checking its files.
+
+    Args:
+        folder: The folder.
+        reading: What will be read of it, and is checked byte by byte; all if None. Of others it is checked that they
+            are there and of their size.
 
     Raises:
         LogError: If the folder is not one, is not whole, or is of another version.
@@ -97,7 +102,7 @@ def read_sealed(folder: str | Path) -> Path:
         raise LogError(f"{path}: no such folder; `prolepsis project SCENARIO --out {path}` would make it")
     manifest = _read_manifest(path, versions=(FORMAT_VERSION,))
     for name, entry in _entries(path, manifest).items():
-        _check_file(path / name, entry)
+        _check_file(path / name, entry, reading is None or name in reading)
     return path
 
 
@@ -245,8 +250,8 @@ def _is_entry(entry: Any) -> bool:
             return False
 
 
-def _check_file(file: Path, entry: Mapping[str, Any]) -> None:
-    """Check a file by what it is and its size before it is opened, and then by its bytes.
+def _check_file(file: Path, entry: Mapping[str, Any], bytewise: bool = True) -> None:
+    """Check a file by what it is and its size before it is opened, and then by its bytes if they matter.
 
     Raises:
         LogError: If it is not as the manifest tells.
@@ -259,6 +264,8 @@ def _check_file(file: Path, entry: Mapping[str, Any]) -> None:
         raise LogError(f"{file}: is no plain file, so it is not opened")
     if status.st_size != entry["bytes"]:
         raise LogError(f"{file}: has {status.st_size} bytes instead of {entry['bytes']}; it was truncated or altered")
+    if not bytewise:
+        return
     with file.open("rb") as stream:
         if hashlib.file_digest(stream, "sha256").hexdigest() != entry["sha256"]:
             raise LogError(f"{file}: does not match its SHA-256 in {MANIFEST}; at least one byte was altered")
