@@ -85,8 +85,8 @@ SCENES: dict[str, str] = {
     "four cubes, each a third of the next": TABLE + masses(0.05, 0.1, 0.3, 0.9, 2.7),
     "a pyramid of six cubes": TABLE
     + "".join(cube(f"b{k}", 0.05, f":on :table1 ; :y {(k - 1) * 0.052:.3f}") for k in range(3))
-    + "".join(cube(f"c{k}", 0.05, f":on :b{k} ; :y {(k - 0.5) * 0.052:.3f}") for k in range(2))
-    + cube("d", 0.05, ":on :c0"),
+    + "".join(cube(f"c{k}", 0.05, f":on :b{k}, :b{k + 1}") for k in range(2))
+    + cube("d", 0.05, ":on :c0, :c1"),
     "a bridge": TABLE
     + cube("left", 0.05, ":on :table1 ; :y -0.1")
     + cube("right", 0.05, ":on :table1 ; :y 0.1")

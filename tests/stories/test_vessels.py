@@ -14,9 +14,9 @@ from prolepsis.terms.reader import parse_term
 
 ON_THE_TABLE = """:floor a :Floor . :table1 a :Table .
 :bowl1 a :Bowl ; :on :table1 . :egg1 a :Egg ; :on :bowl1 .
-:cup1 a :Cup ; :x 0.25 ; :on :table1 . :ball1 a :Ball ; :x 0.25 ; :on :cup1 ; :radius 0.02 .
+:cup1 a :Cup ; :x 0.25 ; :on :table1 . :ball1 a :Ball ; :on :cup1 ; :radius 0.02 .
 :cup2 a :Cup ; :x -0.25 ; :roll 180.0 ; :z 0.7905 .
-:block1 a :Block ; :x -0.25 ; :on :cup2 ; :length 0.05 ; :width 0.05 ; :height 0.05 .
+:block1 a :Block ; :on :cup2 ; :length 0.05 ; :width 0.05 ; :height 0.05 .
 """
 
 

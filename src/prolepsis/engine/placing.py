@@ -59,7 +59,11 @@ def resting_height(thing: Thing, below: Sequence[Thing]) -> float:
         if height + support(thing, -down) < bottom:
             break
     names = ", ".join(sorted({t.whole or t.name for t in below}))
-    raise KnowledgeError(f"{thing.name} cannot rest on {names}: there is nothing of it under its place (x, y)")
+    x, y, _ = thing.position
+    raise KnowledgeError(
+        f"{thing.name} cannot rest on {names}: there is nothing of it under its place, x = {x:g}, y = {y:g} in the "
+        "world; its own :x and :y are from what it is on"
+    )
 
 
 def _add(spec: Any, body: Any, thing: Thing, name: str) -> None:

@@ -18,6 +18,7 @@ from prolepsis.log.happenings import HappeningType
 from prolepsis.log.things import FIXED, FREE, Thing
 from prolepsis.scene.coherence import refuse_nonsense
 from prolepsis.scene.colours import colour_of
+from prolepsis.scene.extent import place_on
 from prolepsis.scene.kind import Channel, Draft, Individuals, Kind, Made, RestingHeight, Roles
 from prolepsis.scene.scene import Pool, Scene
 from prolepsis.scene.shapes import EXTENTS, SHAPES, Extents
@@ -62,24 +63,25 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
     thing_of = partial(_thing, kb, roles, begins)
     individuals = Individuals(kb=kb, roles=roles, bodiless=lambda name: thing_of(name, None))
     owners = {name: _owner(kb, name, kinds) for name in wholes}
-    below = {subject: host for relation, subject, host in kb.relations() if relation == "on" and subject in wholes}
-    # What is in something is lowered into it from above, as what is on something is lowered onto it.
-    below |= {
-        inside: vessel for relation, vessel, inside in kb.relations() if relation == "contains" and inside in wholes
-    }
+    below = _hosts(kb, wholes)
     made: dict[str, Made] = {}
     for name in [name for name in wholes if not owners[name].rests]:
+        if name in below:
+            raise KnowledgeError(
+                f"{kb.location(name)}: {name} ({kb.kind(name)}) is on {' and '.join(below[name])}, but it is not "
+                "lowered onto anything; state its x, y and z instead"
+            )
         made[name] = owners[name].parts(individuals, thing_of(name, owners[name].shapes))
     for name in _supporters_first([name for name in wholes if name not in made], below):
         thing = thing_of(name, owners[name].shapes)
         if name in below:
-            under = made[below[name]].things if below[name] in made else ()
+            under = {host: made[host].things for host in below[name]}
             if thing.shape.geoms:
-                thing = _put_on(thing, below[name], under, resting_height)
+                thing = _put_on(thing, under, resting_height)
             else:
                 # Its kind builds its shape: it is lowered as what it is made of.
                 made_of = _all_of(thing, owners[name].parts(individuals, thing).things)
-                thing = replace(_put_on(made_of, below[name], under, resting_height), shape=thing.shape)
+                thing = replace(_put_on(made_of, under, resting_height), shape=thing.shape)
         if thing.fixed and owners[name].claims is not None:
             raise KnowledgeError(
                 f"{kb.location(name)}: {name} ({thing.kind}) is Furniture, which never moves, and {owners[name].claims}"
@@ -174,12 +176,24 @@ def _roles(kb: KnowledgeBase, known: frozenset[str], name: str) -> frozenset[str
     return frozenset(c for c in kb.classes(name) if c in known)
 
 
-def _supporters_first(names: list[str], below: dict[str, str]) -> list[str]:
+def _hosts(kb: KnowledgeBase, wholes: Collection[str]) -> dict[str, tuple[str, ...]]:
+    """Return what each whole is lowered onto: all that it is on, or the vessels that it is in."""
+    on: dict[str, tuple[str, ...]] = {}
+    inside: dict[str, tuple[str, ...]] = {}
+    for relation, subject, host in kb.relations():
+        if relation == "on" and subject in wholes:
+            on[subject] = (*on.get(subject, ()), host)
+        elif relation == "contains" and host in wholes:
+            inside[host] = (*inside.get(host, ()), subject)
+    return on | inside
+
+
+def _supporters_first(names: list[str], below: Mapping[str, Collection[str]]) -> list[str]:
     """Return the names such that what others rest on comes before them."""
     ordered: list[str] = []
     waiting = list(names)
     while waiting:
-        ready = [name for name in waiting if below.get(name) not in waiting]
+        ready = [name for name in waiting if not set(below.get(name, ())).intersection(waiting)]
         if not ready:
             raise KnowledgeError(f"{brief_list(waiting)} rest on or are in each other, in a circle")
         ordered += ready
@@ -283,17 +297,16 @@ def _all_of(whole: Thing, parts: Sequence[Thing]) -> Thing:
     return replace(whole, shape=replace(whole.shape, geoms=tuple(geoms)))
 
 
-def _put_on(thing: Thing, name: str, under: tuple[Thing, ...], resting_height: RestingHeight) -> Thing:
-    """Return the thing lowered onto what it rests on; unless stated, its x and y are those of the supporter."""
-    solid = [t for t in under if t.shape.geoms and t.is_body]
+def _put_on(thing: Thing, under: Mapping[str, Sequence[Thing]], resting_height: RestingHeight) -> Thing:
+    """Return the thing lowered onto what it rests on, at its x and y from there."""
+    on = " and ".join(under)
+    solid = [t for things in under.values() for t in things if t.shape.geoms and t.is_body]
     if not thing.shape.geoms:
-        raise KnowledgeError(f"{thing.name} is on {name}, but a {thing.kind} does not rest on anything; state its z")
+        raise KnowledgeError(f"{thing.name} is on {on}, but a {thing.kind} does not rest on anything; state its z")
     if not solid:
-        raise KnowledgeError(f"{thing.name} is on {name}, which has no body to rest on")
+        raise KnowledgeError(f"{thing.name} is on {on}, which has no body to rest on")
     if "z" in thing.quantities:
-        raise KnowledgeError(f"{thing.name} is on {name} and has z stated too; state one of the two")
-    x = thing.quantities.get("x", under[0].position[0])
-    y = thing.quantities.get("y", under[0].position[1])
-    moved = replace(thing, position=(x, y, 0.0))
-    height = resting_height(moved, solid)
-    return replace(moved, position=(x, y, height))
+        raise KnowledgeError(f"{thing.name} is on {on} and has z stated too; state one of the two")
+    x, y = place_on(thing, list(under.values()))
+    height = resting_height(replace(thing, position=(x, y, 0.0)), solid)
+    return replace(thing, position=(x, y, height))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from prolepsis.geometry.rotations import matrix
@@ -22,6 +24,20 @@ def extent_along(thing: Thing, direction: FloatArray) -> float:
 def middle(thing: Thing) -> FloatArray:
     """Return the middle of a thing's bounds, seen from its origin in the world's axes [m], shape (3,)."""
     return np.array([support(thing, axis) - support(thing, -axis) for axis in np.eye(3)]) / 2
+
+
+def place_on(thing: Thing, under: Sequence[Sequence[Thing]]) -> tuple[float, float]:
+    """Return where a thing's origin is in the world [m], x and y: as far as it states from the origin of what it is on.
+
+    The way is along the world's axes, however the supporter is turned, as a thing's own angles are about them.
+
+    Args:
+        thing: What is placed.
+        under: What each supporter is made of; of several the middle counts.
+    """
+    origins = [things[0].position for things in under]
+    x, y = (sum(origin[axis] for origin in origins) / len(origins) for axis in (0, 1))
+    return x + thing.quantities.get("x", 0.0), y + thing.quantities.get("y", 0.0)
 
 
 def _reach(geom: Geom, orientation: Quaternion, direction: FloatArray) -> float:

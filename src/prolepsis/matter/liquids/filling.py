@@ -17,6 +17,7 @@ from prolepsis.log.things import Thing
 from prolepsis.matter.liquids.liquids import Placement
 from prolepsis.matter.liquids.region import Region, box_of
 from prolepsis.scenario.scenario import FEWEST_PARTICLES, MOST_PARTICLES
+from prolepsis.scene.extent import place_on
 from prolepsis.scene.kind import RestingHeight
 from prolepsis.scene.posed import Posed, nearest, posed
 from prolepsis.scene.scene import Pool
@@ -215,7 +216,7 @@ def _puddle(
 ) -> FloatArray:
     """Return the particles of a puddle as thick as its surface tension makes it, but no thinner than one layer."""
     q = liquid.quantities
-    x, y = q.get("x", under[0].position[0]), q.get("y", under[0].position[1])
+    x, y = place_on(liquid, [under])
     drop = Thing(
         name=liquid.name,
         kind=liquid.kind,
