@@ -154,6 +154,7 @@ def project_into(
     from prolepsis.engine.composing import compose_scene
     from prolepsis.engine.simulation import simulate
     from prolepsis.engine.world import compile_world
+    from prolepsis.engine.world_file import world_file
     from prolepsis.fluents import recognize
     from prolepsis.programs import check_units, read_program
     from prolepsis.robots.loading import load_robot
@@ -185,7 +186,7 @@ def project_into(
     tell("recognizing")
     timeline = recognize(log, domain=scene.domain)
     result = Projection(
-        scenario=read, scene=scene, log=log, timeline=timeline, world=world.xml(), drawn=knowledge.drawn
+        scenario=read, scene=scene, log=log, timeline=timeline, world=world_file(world), drawn=knowledge.drawn
     )
     if out is None:
         return result, None

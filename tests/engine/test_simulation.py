@@ -14,7 +14,6 @@ from prolepsis.engine.world import compile_world
 from prolepsis.log.log import Log
 from prolepsis.matter.kinds import known_kinds
 from prolepsis.programs import read_program
-from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.errors import InvalidSimulationError, KnowledgeError, ScenarioError, UnknownNameError
 from prolepsis.terms.reader import parse_term
 
@@ -88,20 +87,6 @@ def test_stacked_blocks_rest_and_bear_their_weight() -> None:
     total = np.abs(log.contacts.force[on_floor][:, 2]).sum() / 499
     assert total == pytest.approx(2 * weight, rel=0.02)
     assert np.abs(log.poses[-1, :, :3] - log.poses[0, :, :3]).max() < 1e-3
-
-
-def test_the_world_file_opens_in_plain_mujoco() -> None:
-    for situation in (
-        EGG_IN_HAND,
-        TWO_BLOCKS,
-        ":floor a :Floor . :bowl1 a :Bowl ; :on :floor . :cup1 a :Cup ; :x 0.3 ; :on :floor .",
-    ):
-        world = compile_world(scene(situation))
-        model = mujoco.MjModel.from_xml_string(world.xml())
-        assert model.nbody == world.model.nbody
-        data = mujoco.MjData(model)
-        mujoco.mj_step(model, data)
-        assert np.isfinite(data.qpos).all()
 
 
 def test_a_diverging_simulation_is_invalid_and_says_when_and_where() -> None:

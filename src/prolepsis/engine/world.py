@@ -63,10 +63,6 @@ class World:
             data.joint(name).qpos[0] = value
         return data
 
-    def xml(self) -> str:
-        """Return the world file (MJCF)."""
-        return self.spec.to_xml()
-
 
 @one_thread()
 def compile_world(scene: Scene) -> World:
@@ -143,7 +139,7 @@ class _Making:
         parent, position, orientation = self.spec.worldbody, thing.position, thing.orientation
         if thing.mount.by == "joints" and thing.mount.to is not None:
             parent = self.spec.body(thing.mount.to)
-            position, orientation = _seen_from(self.scene.thing(thing.mount.to), thing)
+            position, orientation = seen_from(self.scene.thing(thing.mount.to), thing)
         body = parent.add_body(name=thing.name, pos=list(position), quat=list(orientation))
         if thing.mount.by == "nothing":
             body.add_freejoint(name=thing.name)
@@ -177,7 +173,7 @@ class _Making:
         pair.solref = list(SMALL_SOLREF)
 
 
-def _seen_from(holder: Thing, thing: Thing) -> tuple[Triple, Quaternion]:
+def seen_from(holder: Thing, thing: Thing) -> tuple[Triple, Quaternion]:
     """Return the pose of a thing in the frame of what it hangs on."""
     back = inverse(holder.orientation)
     away = np.asarray(thing.position) - np.asarray(holder.position)

@@ -20,6 +20,18 @@ class Shard:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class Bonds:
+    """What joins the pieces of a whole until it gives way."""
+
+    whole: str
+    """The thing that consists of the pieces."""
+    pairs: tuple[tuple[str, str], ...]
+    """The two things that each bond joins."""
+    widths: tuple[float, ...]
+    """Length of the common edge of each [m]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class Kernel:
     """What is firm inside a shell."""
 

@@ -15,7 +15,7 @@ from prolepsis.log.things import WITHIN, Thing
 from prolepsis.matter.shells.cutting import CutShell, curvature_radius, ellipsoid_shell
 from prolepsis.scene.colours import colour_of
 from prolepsis.scene.kind import Individuals, Made
-from prolepsis.scene.parts import Kernel, Shard
+from prolepsis.scene.parts import Bonds, Kernel, Shard
 from prolepsis.scene.scene import Pool
 from prolepsis.terms.errors import KnowledgeError
 
@@ -108,6 +108,12 @@ def shelled(individuals: Individuals, whole: Thing) -> Made:
     # What touches the world is the shell, so the whole is as slippery as that.
     slippery = replace(whole, quantities={**whole.quantities, "friction": shell.quantities["friction"]})
     shards, areas = shell_pieces(slippery, shell)
+    cut = shell_of(slippery, shell)
+    bonds = Bonds(
+        whole=shell.name,
+        pairs=tuple((shards[int(bond[0])].name, shards[int(bond[1])].name) for bond in cut.bonds),
+        widths=tuple(float(width) for width in cut.widths),
+    )
     known = Shell(
         whole=whole.name,
         name=shell.name,
@@ -119,7 +125,7 @@ def shelled(individuals: Individuals, whole: Thing) -> Made:
         for kernel in kernels
     ]
     membranes = [_membrane(kb, stuff) for stuff in stuffs if kb.is_a(stuff.name, "Membraned")]
-    return Made(things=(slippery, shell, *stuffs, *kernels, *shards), parts=(known, *areas, *firm, *membranes))
+    return Made(things=(slippery, shell, *stuffs, *kernels, *shards), parts=(known, bonds, *areas, *firm, *membranes))
 
 
 def _membrane(kb: KnowledgeBase, stuff: Thing) -> Membraned:
