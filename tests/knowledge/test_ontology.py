@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from rdflib import OWL, RDF, URIRef
 
@@ -30,6 +32,14 @@ def test_every_default_and_default_part_has_a_source_and_a_certainty(base: Knowl
     assert len(defaults) > 70
     for default in defaults:
         assert len(default.source) > 3 and default.certainty in tuple("TRCMD")
+
+
+def test_what_was_chosen_is_told_to_be_decided(base: KnowledgeBase) -> None:
+    defaults = {name: (*entry.defaults, *entry.parts) for name, entry in base.vocabulary.classes.items()}
+    chosen = re.compile(r"\b(chosen|decided|assumed|fitted|adjusted)\b")
+    said = [(name, each) for name, known in defaults.items() for each in known if chosen.search(each.source)]
+    assert len(said) >= 4
+    assert [(name, each.source) for name, each in said if each.certainty != "D"] == []
 
 
 def test_every_number_has_a_qudt_unit_and_bounds() -> None:
