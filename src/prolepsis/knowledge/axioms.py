@@ -5,12 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import combinations
 
-from rdflib import OWL, RDF, RDFS, BNode, Graph, URIRef
+from rdflib import OWL, RDF, RDFS, BNode, URIRef
 from rdflib.collection import Collection
-from rdflib.term import Node
 
-from prolepsis.knowledge.cells import Cells, range_nodes, read_cells, read_range
+from prolepsis.knowledge.cells import Cells, read_cells
+from prolepsis.knowledge.expressions import THING, Expression, Reader, joined
 from prolepsis.knowledge.situation import Situation
 from prolepsis.knowledge.turtle import Document, local_name
 from prolepsis.knowledge.vocabulary import Vocabulary
@@ -28,12 +29,6 @@ class Axiom:
     where: str = ""
     """File and line, or what it follows from."""
 
-
-Expression = tuple[str, str]
-"""A class expression in functional syntax, and as a person would write it."""
-
-THING: Expression = ("<http://www.w3.org/2002/07/owl#Thing>", "anything")
-NOTHING: Expression = ("<http://www.w3.org/2002/07/owl#Nothing>", "nothing")
 
 _IRI = re.compile(r"<([^<>]*)>")
 
@@ -57,106 +52,8 @@ _CLASS_PAIRS = {
     OWL.equivalentClass: ("EquivalentClasses", "{} means {}"),
     OWL.disjointWith: ("DisjointClasses", "no {} is {}"),
 }
-_COUNTS = {
-    OWL.minQualifiedCardinality: ("Min", "at least"),
-    OWL.maxQualifiedCardinality: ("Max", "at most"),
-    OWL.qualifiedCardinality: ("Exact", "exactly"),
-    OWL.minCardinality: ("Min", "at least"),
-    OWL.maxCardinality: ("Max", "at most"),
-    OWL.cardinality: ("Exact", "exactly"),
-}
-
-
-@dataclass(frozen=True, slots=True)
-class _Reader:
-    """Reads the expressions of one file."""
-
-    document: Document
-    vocabulary: Vocabulary
-    cells: Mapping[str, Cells]
-    mentioned: set[str]
-    """IRIs of the classes read so far; each must be declared."""
-    regions: set[tuple[str, tuple[str, ...]]]
-    """Unions of cells read so far, by property."""
-
-    @property
-    def graph(self) -> Graph:
-        return self.document.graph
-
-    def expression(self, node: Node) -> Expression:
-        """Return the class expression that ``node`` denotes."""
-        if isinstance(node, URIRef):
-            self.mentioned.add(str(node))
-            return f"<{node}>", local_name(node)
-        for predicate, functor, word in (
-            (OWL.intersectionOf, "ObjectIntersectionOf", " and "),
-            (OWL.unionOf, "ObjectUnionOf", " or "),
-        ):
-            members = self.graph.value(node, predicate)
-            if members is not None:
-                parts = sorted(self.expression(member) for member in Collection(self.graph, members))
-                return _joined(functor, word, parts)
-        complement = self.graph.value(node, OWL.complementOf)
-        if complement is not None:
-            text, reading = self.expression(complement)
-            return f"ObjectComplementOf({text})", f"not {reading}"
-        listed = self.graph.value(node, OWL.oneOf)
-        if listed is not None:
-            members = sorted(str(member) for member in Collection(self.graph, listed))
-            names = ", ".join(local_name(URIRef(member)) for member in members)
-            return f"ObjectOneOf({' '.join(f'<{m}>' for m in members)})", f"one of {names}"
-        on = self.graph.value(node, OWL.onProperty)
-        if on is not None:
-            return self._restriction(node, on)
-        raise KnowledgeError(f"{self.document.path}: a class expression cannot be read: {self._shown(node)}")
-
-    def _shown(self, node: Node) -> str:
-        said = sorted(f"{local_name(URIRef(str(p)))} {o}" for p, o in self.graph.predicate_objects(node))
-        return "; ".join(said) or "it is empty"
-
-    def _restriction(self, node: Node, on: Node) -> Expression:
-        inverse = self.graph.value(on, OWL.inverseOf) if isinstance(on, BNode) else None
-        role = f"ObjectInverseOf(<{inverse}>)" if inverse is not None else f"<{on}>"
-        name = f"inverse {local_name(URIRef(str(inverse)))}" if inverse is not None else local_name(URIRef(str(on)))
-        if name in self.cells:
-            return self._data_restriction(node, name)
-        for predicate, functor, word in (
-            (OWL.someValuesFrom, "ObjectSomeValuesFrom", "some"),
-            (OWL.allValuesFrom, "ObjectAllValuesFrom", "only"),
-        ):
-            filler = self.graph.value(node, predicate)
-            if filler is not None:
-                text, reading = self.expression(filler)
-                return f"{functor}({role} {text})", f"({name} {word} {reading})"
-        value = self.graph.value(node, OWL.hasValue)
-        if value is not None:
-            return f"ObjectHasValue({role} <{value}>)", f"({name} {local_name(URIRef(str(value)))})"
-        for predicate, (functor, word) in _COUNTS.items():
-            count = self.graph.value(node, predicate)
-            if count is not None:
-                filler = self.graph.value(node, OWL.onClass)
-                text, reading = THING if filler is None else self.expression(filler)
-                return f"Object{functor}Cardinality({count} {role} {text})", f"({name} {word} {count} {reading})"
-        raise KnowledgeError(f"{self.document.path}: a restriction on {name} cannot be read: {self._shown(node)}")
-
-    def _data_restriction(self, node: Node, name: str) -> Expression:
-        nodes, entry, cells = range_nodes(self.graph, node), self.vocabulary.properties[name], self.cells[name]
-        if not nodes:
-            raise KnowledgeError(f"{self.document.path}: a restriction on {name} cannot be read: {self._shown(node)}")
-        values = read_range(self.graph, nodes[0], entry)
-        inside = cells.within(values)
-        union = cells.region(inside) if inside else NOTHING[0]
-        if 1 < len(inside) < len(cells.samples):
-            self.regions.add((name, inside))
-        only = self.graph.value(node, OWL.allValuesFrom) is not None
-        functor = "ObjectAllValuesFrom" if only else "ObjectSomeValuesFrom"
-        return f"{functor}(<{cells.iri}> {union})", f"({name} {'only ' if only else ''}{values})"
-
-
-def _joined(functor: str, word: str, parts: list[Expression]) -> Expression:
-    if len(parts) == 1:
-        return parts[0]
-    return f"{functor}({' '.join(text for text, _ in parts)})", f"({word.join(reading for _, reading in parts)})"
+_MEANINGS = (OWL.intersectionOf, OWL.unionOf, OWL.complementOf, OWL.oneOf)
+_TARGETS = ("an owl:targetIndividual", "an owl:targetValue")
 
 
 def terminology(
@@ -168,8 +65,8 @@ def terminology(
     classes = {entry.iri for entry in vocabulary.classes.values()}
     regions: set[tuple[str, tuple[str, ...]]] = set()
     for document in documents:
-        reader = _Reader(document, vocabulary, cells, classes, regions)
-        axioms += [*_class_axioms(reader), *_property_axioms(reader)]
+        reader = Reader(document, vocabulary, cells, classes, regions)
+        axioms += [*_class_axioms(reader), *_property_axioms(reader), *_denied(reader)]
     axioms += _cell_axioms(cells, regions)
     axioms += [Axiom(f"Declaration(Class(<{iri}>))") for iri in sorted(classes)]
     axioms += [
@@ -183,27 +80,59 @@ def terminology(
     return tuple(sorted(set(axioms))), cells
 
 
-def _class_axioms(reader: _Reader) -> Iterator[Axiom]:
+def _class_axioms(reader: Reader) -> Iterator[Axiom]:
     graph, document = reader.graph, reader.document
     for predicate, (functor, words) in _CLASS_PAIRS.items():
         for subject, node in graph.subject_objects(predicate):
-            if isinstance(subject, URIRef):
-                (left, left_reading), (right, right_reading) = reader.expression(subject), reader.expression(node)
-                reading = words.format(left_reading, _with_article(right_reading))
-                yield Axiom(f"{functor}({left} {right})", reading, document.where(subject))
+            (left, left_reading), (right, right_reading) = reader.expression(subject), reader.expression(node)
+            reading = words.format(left_reading.removeprefix("(").removesuffix(")"), _with_article(right_reading))
+            yield Axiom(f"{functor}({left} {right})", reading, document.where(subject))
+    for subject in sorted({s for word in _MEANINGS for s in graph.subjects(word) if isinstance(s, URIRef)}):
+        meaning = reader.connected(subject)
+        if meaning is not None:
+            reading = f"{local_name(subject)} means {_with_article(meaning[1])}"
+            yield Axiom(f"EquivalentClasses(<{subject}> {meaning[0]})", reading, document.where(subject))
+    for subject, node in graph.subject_objects(OWL.disjointUnionOf):
+        parts = reader.listed(node)
+        text, said = joined("ObjectUnionOf", " or ", parts)
+        name, where = local_name(URIRef(str(subject))), document.where(subject)
+        yield Axiom(f"EquivalentClasses(<{subject}> {text})", f"{name} means {_with_article(said)}", where)
+        yield from _apart(parts, where)
     for subject, node in graph.subject_objects(RDF.type):
         if isinstance(subject, URIRef) and isinstance(node, BNode):
             text, reading = reader.expression(node)
             said = f"{local_name(subject)} is {_with_article(reading)}"
             yield Axiom(f"ClassAssertion({text} <{subject}>)", said, document.where(subject))
     for subject in graph.subjects(RDF.type, OWL.AllDisjointClasses):
-        listed = graph.value(subject, OWL.members)
-        members = [] if listed is None else sorted(reader.expression(m) for m in Collection(graph, listed))
-        reading = f"nothing is two of {', '.join(r for _, r in members)}"
-        yield Axiom(f"DisjointClasses({' '.join(t for t, _ in members)})", reading, str(document.path))
+        for listed in graph.objects(subject, OWL.members):
+            yield from _apart(reader.listed(listed), str(document.path))
 
 
-def _property_axioms(reader: _Reader) -> Iterator[Axiom]:
+def _apart(parts: list[Expression], where: str) -> Iterator[Axiom]:
+    if len(parts) > 1:
+        reading = f"nothing is two of {', '.join(reading for _, reading in parts)}"
+        yield Axiom(f"DisjointClasses({' '.join(text for text, _ in parts)})", reading, where)
+
+
+def _denied(reader: Reader) -> Iterator[Axiom]:
+    """Yield what is said not to be so: that an individual is among those who have the value."""
+    graph, document = reader.graph, reader.document
+    for node in graph.subjects(RDF.type, OWL.NegativePropertyAssertion):
+        subject, role = graph.value(node, OWL.sourceIndividual), graph.value(node, OWL.assertionProperty)
+        target, value = graph.value(node, OWL.targetIndividual), graph.value(node, OWL.targetValue)
+        name = local_name(URIRef(str(role)))
+        if (target is None) != (name in reader.cells):
+            raise KnowledgeError(f"{document.path}: a denial of {name} needs {_TARGETS[name in reader.cells]}")
+        if value is not None:
+            region, shown = reader.region(name, value)
+            has = f"ObjectSomeValuesFrom(<{role}> {region})"
+        else:
+            has, shown = f"ObjectHasValue(<{role}> <{target}>)", local_name(URIRef(str(target)))
+        said = f"not {local_name(URIRef(str(subject)))} {name} {shown}"
+        yield Axiom(f"SubClassOf(ObjectOneOf(<{subject}>) ObjectComplementOf({has}))", said, str(document.path))
+
+
+def _property_axioms(reader: Reader) -> Iterator[Axiom]:
     graph, document = reader.graph, reader.document
     for kind, (functor, words) in _PROPERTY_TYPES.items():
         for subject in graph.subjects(RDF.type, kind):
@@ -220,21 +149,28 @@ def _property_axioms(reader: _Reader) -> Iterator[Axiom]:
     ):
         for subject, node in graph.subject_objects(predicate):
             is_data_range = predicate == RDFS.range and local_name(URIRef(str(subject))) in reader.cells
-            if isinstance(subject, URIRef) and not is_data_range:
-                text, reading = reader.expression(node)
-                said = words.format(local_name(subject), _with_article(reading))
+            if isinstance(subject, URIRef) and not (is_data_range and isinstance(node, URIRef)):
+                name = local_name(subject)
+                text, reading = reader.region(name, node) if is_data_range else reader.expression(node)
+                said = words.format(name, reading if is_data_range else _with_article(reading))
                 yield Axiom(f"{functor}(<{subject}> {text})", said, document.where(subject))
     for subject, node in graph.subject_objects(OWL.propertyChainAxiom):
-        chain = [str(member) for member in Collection(graph, node)]
-        text = f"SubObjectPropertyOf(ObjectPropertyChain({' '.join(f'<{c}>' for c in chain)}) <{subject}>)"
-        reading = f"{' of '.join(local_name(URIRef(c)) for c in chain)} implies {local_name(URIRef(str(subject)))}"
+        chain = [reader.role(member) for member in Collection(graph, node)]
+        text = f"SubObjectPropertyOf(ObjectPropertyChain({' '.join(role for role, _ in chain)}) <{subject}>)"
+        reading = f"{' of '.join(name for _, name in chain)} implies {local_name(URIRef(str(subject)))}"
         yield Axiom(text, reading, document.where(URIRef(str(subject))))
+    for subject in graph.subjects(RDF.type, OWL.AllDisjointProperties):
+        for listed in graph.objects(subject, OWL.members):
+            for one, other in combinations(sorted({str(member) for member in Collection(graph, listed)}), 2):
+                reading = f"{local_name(URIRef(one))} excludes {local_name(URIRef(other))}"
+                yield Axiom(f"DisjointObjectProperties(<{one}> <{other}>)", reading, str(document.path))
 
 
 def _cell_axioms(cells: Mapping[str, Cells], regions: set[tuple[str, tuple[str, ...]]]) -> Iterator[Axiom]:
     for own in cells.values():
         if len(own.samples) > 1:
             yield Axiom(f"DisjointClasses({' '.join(own.all())})")
+            yield Axiom(f"ObjectPropertyRange(<{own.iri}> ObjectUnionOf({' '.join(own.all())}))")
     for name, inside in sorted(regions):
         # A union would make the reasoner guess; a class of its own between the cells says as much of any one value.
         region = cells[name].region(inside)
@@ -263,7 +199,7 @@ def assertions(
         for entry_name, own in cells.items():
             default = (
                 None
-                if (name, entry_name) in situation.said or len(own.samples) < 2
+                if (name, entry_name) in situation.said or not own.mentioned
                 else told_default(vocabulary, told, entry_name)
             )
             if default is not None:
@@ -280,7 +216,7 @@ def assertions(
         if entry.kind == "relation":
             text = f"ObjectPropertyAssertion(<{entry.iri}> <{iri}> <{situation.iris[str(s.value)]}>)"
             axioms.append(Axiom(text, reading, s.where))
-        elif len(cells[s.property].samples) > 1 or entry.iri in domains:
+        elif cells[s.property].mentioned or entry.iri in domains:
             axioms.append(Axiom(_some(cells[s.property], s.value, iri), reading, s.where))
     names = " ".join(f"<{situation.iris[name]}>" for name in situation.classes)
     axioms.append(Axiom(f"DifferentIndividuals({names})", "two names are two things"))

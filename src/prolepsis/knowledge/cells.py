@@ -10,16 +10,16 @@ differ only in numbers look the same to it, so its answer is reused.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from rdflib import OWL, RDF, XSD, Graph, Literal, URIRef
+from rdflib import OWL, RDF, RDFS, XSD, BNode, Graph, Literal, URIRef
 from rdflib.collection import Collection
 from rdflib.term import Node
 
 from prolepsis.knowledge.turtle import Document, local_name
 from prolepsis.knowledge.vocabulary import Property, Vocabulary
-from prolepsis.terms.errors import KnowledgeError
+from prolepsis.terms.errors import KnowledgeError, brief
 from prolepsis.terms.units import to_si
 
 Scalar = float | str
@@ -30,6 +30,12 @@ _FACETS = {
     XSD.maxInclusive: "<=",
     XSD.maxExclusive: "<",
 }
+_DATATYPES = {
+    "quantity": (XSD.double, XSD.float, XSD.decimal, RDFS.Literal),
+    "truth": (XSD.boolean, RDFS.Literal),
+    "text": (XSD.string, RDFS.Literal),
+}
+"""Datatypes to which every value of a kind of property belongs."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +92,7 @@ def read_range(graph: Graph, node: Node, entry: Property) -> DataRange:
     if isinstance(node, Literal):
         return DataRange("values", (_scalar(node, entry),))
     if isinstance(node, URIRef):
-        return DataRange("all")
+        return _all_of(node, entry)
     for predicate, kind in ((OWL.unionOf, "or"), (OWL.intersectionOf, "and")):
         members = graph.value(node, predicate)
         if members is not None:
@@ -97,8 +103,9 @@ def read_range(graph: Graph, node: Node, entry: Property) -> DataRange:
     listed = graph.value(node, OWL.oneOf)
     if listed is not None:
         return DataRange("values", tuple(_scalar(m, entry) for m in Collection(graph, listed)))
-    facets = graph.value(node, OWL.withRestrictions)
-    if facets is not None:
+    facets, base = graph.value(node, OWL.withRestrictions), graph.value(node, OWL.onDatatype)
+    if facets is not None and isinstance(base, URIRef) and entry.kind == "quantity":
+        _all_of(base, entry)
         parts = [
             DataRange(_FACETS[URIRef(str(predicate))], (_scalar(bound, entry),))
             for facet in Collection(graph, facets)
@@ -110,13 +117,30 @@ def read_range(graph: Graph, node: Node, entry: Property) -> DataRange:
     raise KnowledgeError(f"a restriction on {entry.name} has a range of values that cannot be read")
 
 
+def _all_of(datatype: URIRef, entry: Property) -> DataRange:
+    known = (*_DATATYPES[entry.kind], *((XSD.integer,) if entry.whole else ()))
+    if datatype not in known:
+        allowed = ", ".join(local_name(each) for each in known)
+        raise KnowledgeError(f"a value of {entry.name} is no {local_name(datatype)}; allowed: {allowed}")
+    return DataRange("all")
+
+
 def _scalar(node: Node, entry: Property) -> Scalar:
+    text = str(node).strip()
     if entry.kind == "quantity":
         try:
-            return to_si(float(str(node)), entry.unit)
+            number = float(text)
         except ValueError:
-            raise KnowledgeError(f"a restriction on {entry.name} must name a number, not {str(node)!r}") from None
-    return str(node).lower() if entry.kind == "truth" else str(node)
+            number = math.nan
+        if not math.isfinite(number):
+            raise KnowledgeError(f"a restriction on {entry.name} must name a number, not {brief(repr(text))}")
+        return to_si(number, entry.unit)
+    if entry.kind == "truth":
+        truth = {"true": "true", "1": "true", "false": "false", "0": "false"}.get(text.lower())
+        if truth is None:
+            raise KnowledgeError(f"a restriction on {entry.name} must name true or false, not {brief(repr(text))}")
+        return truth
+    return text
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,6 +153,8 @@ class Cells:
     """One value of each cell."""
     points: tuple[Scalar, ...]
     """The values that are cells of their own."""
+    mentioned: bool = False
+    """Whether any axiom speaks of its values."""
 
     def name(self, index: int) -> str:
         """Return the class of the cell as the reasoner sees it."""
@@ -170,38 +196,52 @@ def read_cells(documents: tuple[Document, ...], vocabulary: Vocabulary) -> Mappi
         for iri in graph.subjects(RDF.type, OWL.DatatypeProperty):
             if isinstance(iri, URIRef):
                 iris[local_name(iri)] = str(iri)
-        for node, iri in graph.subject_objects(OWL.onProperty):
-            entry = vocabulary.properties.get(local_name(iri)) if isinstance(iri, URIRef) else None
-            if entry is None or entry.kind == "relation":
-                continue
-            for filler in range_nodes(graph, node):
-                try:
-                    found = read_range(graph, filler, entry).points()
-                except KnowledgeError as error:
-                    raise KnowledgeError(f"{document.path}: {error}") from None
-                # That a quantity is known at all is told by its cells, so there must be some.
-                points.setdefault(entry.name, set()).update(found or ((0.0,) if entry.kind == "quantity" else ()))
-    return {
-        name: _cells(vocabulary.properties[name], iri, points.get(name, set())) for name, iri in sorted(iris.items())
-    }
+        for entry, node in _ranges(graph, vocabulary):
+            try:
+                points.setdefault(entry.name, set()).update(read_range(graph, node, entry).points())
+            except KnowledgeError as error:
+                raise KnowledgeError(f"{document.path}: {error}") from None
+    return {name: _cells(vocabulary.properties[name], iri, points.get(name)) for name, iri in sorted(iris.items())}
+
+
+def _ranges(graph: Graph, vocabulary: Vocabulary) -> Iterator[tuple[Property, Node]]:
+    """Yield each data property that an axiom speaks of, with the range of values of which it does."""
+    mentions = [
+        *((iri, filler) for node, iri in graph.subject_objects(OWL.onProperty) for filler in range_nodes(graph, node)),
+        *((iri, node) for iri, node in graph.subject_objects(RDFS.range) if isinstance(node, BNode)),
+        *(
+            (iri, value)
+            for node, iri in graph.subject_objects(OWL.assertionProperty)
+            for value in graph.objects(node, OWL.targetValue)
+        ),
+    ]
+    for iri, node in mentions:
+        entry = vocabulary.properties.get(local_name(iri)) if isinstance(iri, URIRef) else None
+        if entry is not None and entry.kind != "relation":
+            yield entry, node
 
 
 def range_nodes(graph: Graph, node: Node) -> list[Node]:
     """Return the data ranges that a restriction on a data property mentions."""
     predicates = (OWL.someValuesFrom, OWL.allValuesFrom, OWL.hasValue, OWL.onDataRange)
-    return [filler for predicate in predicates for filler in graph.objects(node, predicate)]
+    found = [filler for predicate in predicates for filler in graph.objects(node, predicate)]
+    counted = any(
+        graph.value(node, word) is not None for word in (OWL.minCardinality, OWL.maxCardinality, OWL.cardinality)
+    )
+    return [*found, *([RDFS.Literal] if counted else [])]
 
 
-def _cells(entry: Property, iri: str, points: set[Scalar]) -> Cells:
+def _cells(entry: Property, iri: str, points: set[Scalar] | None) -> Cells:
+    mentioned = points is not None
+    if not points:
+        return Cells(iri, ("",) if entry.kind != "quantity" else (0.0,), (), mentioned)
     if entry.kind == "truth":
-        return Cells(iri, ("false", "true"), ("false", "true")) if points else Cells(iri, ("false",), ())
+        return Cells(iri, ("false", "true"), ("false", "true"), mentioned)
     if entry.kind == "text":
         listed = tuple(sorted(str(point) for point in points))
-        return Cells(iri, (*listed, "".join(listed) + " and any other"), listed)
+        return Cells(iri, (*listed, "".join(listed) + " and any other"), listed, mentioned)
     bounds = sorted(float(point) for point in points)
-    if not bounds:
-        return Cells(iri, (0.0,), ())
-    samples: list[Scalar] = [bounds[0] - 1.0]
+    samples: list[Scalar] = [bounds[0] - 1.0 - abs(bounds[0])]
     for low, high in zip(bounds, [*bounds[1:], math.inf], strict=True):
         samples += [low, (low + high) / 2 if high < math.inf else low + 1.0 + abs(low)]
-    return Cells(iri, tuple(samples), tuple(bounds))
+    return Cells(iri, tuple(samples), tuple(bounds), mentioned)

@@ -11,7 +11,8 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterable
 
-from prolepsis.knowledge.axioms import NOTHING, THING, Axiom
+from prolepsis.knowledge.axioms import Axiom
+from prolepsis.knowledge.expressions import NOTHING, THING
 from prolepsis.knowledge.structures import Structure, Tree, parse_axiom
 
 DEPTH = 3

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from prolepsis.knowledge.axioms import THING
+from prolepsis.knowledge.expressions import THING
 from prolepsis.knowledge.structures import Tree, parse_axiom
 
 

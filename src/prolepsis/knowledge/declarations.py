@@ -32,14 +32,22 @@ def read_vocabulary(documents: tuple[Document, ...]) -> Vocabulary:
         for iri in _named(document, OWL.DatatypeProperty, OWL.ObjectProperty):
             entry = _property(document, iri)
             known = properties.get(entry.name)
+            _refuse_second_name(document, iri, known)
             # The file of correspondences declares properties anew.
             properties[entry.name] = entry if known is None else _more_aligned(known, entry)
     classes: dict[str, ClassEntry] = {}
     for document in documents:
         for iri in _named(document, OWL.Class):
             entry = _class(document, iri, properties)
+            _refuse_second_name(document, iri, classes.get(entry.name, properties.get(entry.name)))
             classes[entry.name] = _joined(classes[entry.name], entry) if entry.name in classes else entry
     return Vocabulary(classes=dict(sorted(classes.items())), properties=dict(sorted(properties.items())))
+
+
+def _refuse_second_name(document: Document, iri: URIRef, known: Property | ClassEntry | None) -> None:
+    if known is not None and known.iri != str(iri):
+        told = f"two things are called {known.name}: <{known.iri}> and <{iri}>; name one otherwise"
+        raise KnowledgeError(f"{document.where(iri)}: {told}")
 
 
 def _more_aligned(first: Property, second: Property) -> Property:
@@ -118,19 +126,19 @@ def _class(document: Document, iri: URIRef, properties: Mapping[str, Property]) 
     same = [e for e in graph.objects(iri, OWL.equivalentClass) if isinstance(e, URIRef)]
     parents += same
     others = [m for m in graph.objects(iri, PRO.alignedWith) if isinstance(m, URIRef)]
-    own = [p for p in parents if not _foreign(p)]
+    own = [p for p in parents if not is_aligned(p)]
     return ClassEntry(
         name=local_name(iri),
         iri=str(iri),
         parents=tuple(sorted(local_name(p) for p in own)),
-        defined=any(isinstance(e, BNode) or not _foreign(e) for e in graph.objects(iri, OWL.equivalentClass)),
+        defined=any(isinstance(e, BNode) or not is_aligned(e) for e in graph.objects(iri, OWL.equivalentClass)),
         defaults=tuple(sorted(_defaults(document, iri, properties), key=lambda d: d.property)),
         curves=tuple(sorted(_curves(document, iri, properties), key=lambda c: c.property)),
         limits=tuple(sorted(_limits(document, iri, properties), key=lambda p: p.name)),
         parts=tuple(sorted(_parts(document, iri), key=lambda p: p.kind)),
         needs_whole=tuple(sorted(local_name(w) for w in graph.objects(iri, PRO.needsWhole) if isinstance(w, URIRef))),
         called=_word(document, iri),
-        alignments=tuple(sorted({str(p) for p in parents + others if _foreign(p)})),
+        alignments=tuple(sorted({str(p) for p in parents + others if is_aligned(p)})),
         comment=_text(document, iri, RDFS.comment),
     )
 
@@ -143,7 +151,8 @@ def _word(document: Document, iri: URIRef) -> str:
     return word
 
 
-def _foreign(iri: Node) -> bool:
+def is_aligned(iri: Node) -> bool:
+    """Return whether a name is of an ontology that ours is aligned with, and that is not read."""
     return "ontologydesignpatterns.org" in str(iri) or "ease-crc.org" in str(iri)
 
 

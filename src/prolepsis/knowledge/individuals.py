@@ -46,7 +46,7 @@ def read_situation(documents: tuple[Document, ...], vocabulary: Vocabulary, most
             told = [
                 local_name(t)
                 for t in document.graph.objects(iri, RDF.type)
-                if isinstance(t, URIRef) and t != OWL.NamedIndividual
+                if isinstance(t, URIRef) and t not in (OWL.NamedIndividual, OWL.Thing)
             ]
             if told or name not in classes:
                 classes[name] = tuple(sorted({*classes.get(name, ()), *told}))
@@ -78,7 +78,8 @@ def _refuse_misplaced(document: Document, vocabulary: Vocabulary) -> None:
         name = local_name(URIRef(str(predicate)))
         if isinstance(subject, BNode) and predicate == RDF.type and str(node) in known:
             raise KnowledgeError(f"{document.path}: a nameless {local_name(URIRef(str(node)))}: give it a name")
-        if isinstance(subject, URIRef) and str(subject) in known and name in vocabulary.properties:
+        entry = vocabulary.properties.get(name)
+        if isinstance(subject, URIRef) and str(subject) in known and entry is not None and entry.iri == str(predicate):
             where = document.where(subject)
             raise KnowledgeError(
                 f"{where}: {local_name(subject)} is a class: write [ :of :{name} ; ... ] as a :default of it"
@@ -112,9 +113,9 @@ def _statements(document: Document, vocabulary: Vocabulary, classes: Mapping[str
         subject = local_name(iri)
         for predicate, node in sorted(document.graph.predicate_objects(iri), key=str):
             name = local_name(predicate) if isinstance(predicate, URIRef) else ""
-            if name not in vocabulary.properties or isinstance(node, BNode):
+            entry = vocabulary.properties.get(name)
+            if entry is None or entry.iri != str(predicate) or isinstance(node, BNode):
                 continue
-            entry = vocabulary.properties[name]
             where = document.where(iri)
             value = read_value(entry, node, where=f"{where}: {subject}")
             if name == "file":

@@ -55,6 +55,7 @@ def infer(sources: tuple[Source, ...], vocabulary: Vocabulary, situation: Situat
 
 
 def _read(sources: tuple[Source, ...], *, check: bool, most: int | None) -> Reading:
+    from prolepsis.knowledge.constructs import refuse_unread
     from prolepsis.knowledge.declarations import read_vocabulary
     from prolepsis.knowledge.individuals import read_situation
     from prolepsis.knowledge.reasoning import infer_types
@@ -64,6 +65,7 @@ def _read(sources: tuple[Source, ...], *, check: bool, most: int | None) -> Read
     vocabulary = read_vocabulary(documents)
     refuse_unknown_names(documents, vocabulary)
     situation = read_situation(documents, vocabulary, most)
+    refuse_unread(documents)
     return vocabulary, situation, infer_types(documents, vocabulary, situation, check=check)
 
 

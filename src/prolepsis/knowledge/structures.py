@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
-from prolepsis.knowledge.axioms import NOTHING, THING
+from prolepsis.knowledge.expressions import NOTHING, THING
 
 Tree = str | tuple["Tree", ...]
 """An axiom or expression: an IRI, or a functor with its arguments."""

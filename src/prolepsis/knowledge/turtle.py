@@ -12,6 +12,7 @@ from pathlib import Path
 from rdflib import Graph, URIRef
 from rdflib.exceptions import ParserError
 from rdflib.plugins.parsers.notation3 import BadSyntax
+from rdflib.term import Node
 
 from prolepsis.knowledge.sources import Source, built_in_sources
 from prolepsis.terms.errors import KnowledgeError, brief
@@ -33,9 +34,9 @@ class Document:
     lines: Mapping[str, int]
     """Local name to the number of the line on which it is first written."""
 
-    def where(self, iri: URIRef) -> str:
+    def where(self, iri: Node) -> str:
         """Return file and line at which ``iri`` is first written, or the file alone."""
-        line = self.lines.get(local_name(iri))
+        line = self.lines.get(local_name(iri)) if isinstance(iri, URIRef) else None
         return str(self.path) if line is None else f"{self.path}:{line}"
 
 
