@@ -59,3 +59,27 @@ def test_a_definition_by_a_count_finds_who_meets_it(tmp_path: Path) -> None:
     base = loaded(tmp_path, f"{bridge} :b1 a :Block ; :on :table1 , :table2 . :b2 a :Block ; :on :table1 .")
     assert not base.unchecked
     assert base.is_a("b1", "Bridge") and not base.is_a("b2", "Bridge")
+
+
+def counted(word: str, number: int, of: str = ":Block") -> str:
+    return (
+        f"[ a owl:Restriction ; owl:onProperty :bears ; owl:{word} "
+        f'"{number}"^^<http://www.w3.org/2001/XMLSchema#nonNegativeInteger> ; owl:onClass {of} ]'
+    )
+
+
+@pytest.mark.parametrize(
+    "meaning",
+    [
+        counted("minQualifiedCardinality", 2),
+        f"[ a owl:Class ; owl:complementOf {counted('maxQualifiedCardinality', 1)} ]",
+    ],
+)
+def test_two_stated_things_are_two_however_it_is_said(tmp_path: Path, meaning: str) -> None:
+    told = ":bears a owl:ObjectProperty . :b1 a :Block ; :bears :b2 , :b3 . :b2 a :Block ; :bears :b3 . :b3 a :Block ."
+    base = loaded(tmp_path, f"{told} :Loaded a owl:Class ; owl:equivalentClass {meaning} .")
+    assert [base.is_a(name, "Loaded") for name in ("b1", "b2")] == [True, False] and not base.unchecked
+    with pytest.raises(InconsistentError, match="b1 bears b2"):
+        loaded(tmp_path, f"{told} {meaning} rdfs:subClassOf :Ball . :Ball owl:disjointWith :Block .")
+    with pytest.raises(InconsistentError, match="b1 bears b2"):
+        loaded(tmp_path, f"{told} :Loaded a owl:Class ; owl:equivalentClass {meaning} ; owl:disjointWith :Block .")

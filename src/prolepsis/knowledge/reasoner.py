@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from prolepsis.knowledge.axioms import Axiom
-from prolepsis.knowledge.counting import OverlookedError, counted_on_the_right
+from prolepsis.knowledge.counting import counted_on_the_right
 from prolepsis.terms.errors import KnowledgeError, UndecidedError
 
 if TYPE_CHECKING:
@@ -105,12 +105,7 @@ def is_consistent(axioms: tuple[Axiom, ...], budget: Budget | None = None) -> bo
         f"contradicts itself; allow more with the environment variable {LIMIT_VARIABLE}, or write the new axioms "
         f"more simply"
     )
-    try:
-        text = ontology_text(axioms)
-    except OverlookedError:
-        raise UndecidedError(
-            "the reasoner overlooks a count of two or more within a condition; say it otherwise"
-        ) from None
+    text = ontology_text(axioms)
     if budget.left <= 0.0 or len(text) > budget.each * CHARACTERS:
         raise undecided
     # Importing the reasoner takes longer than all the rest of loading a knowledge base.
