@@ -105,7 +105,7 @@ class Projection:
         for name, source in names:
             shutil.copyfile(source, path / name)
         if own is not None:
-            scenario = replace(scenario, robot=replace(own, file=names[-1][0]))
+            scenario = replace(scenario, robot=replace(own, file=names[-1][0], folder=None))
         situation = [name for name, _ in names[: len(scenario.situation)]]
         write_json(path / SCENARIO, {**_scenario_row(scenario, situation), "drawn": dict(self.drawn)})
 
@@ -266,7 +266,7 @@ def _drawn(row: dict[str, Any]) -> dict[str, float | str]:
 def _own_robot(table: dict[str, Any]) -> OwnRobot:
     robot = read_robot(table, SCENARIO)
     _name(robot.file)
-    return robot
+    return replace(robot, folder=None)
 
 
 def _name(name: Any) -> str:

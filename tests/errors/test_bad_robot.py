@@ -45,7 +45,7 @@ TABLE = [
     (
         'name = "arm1"',
         'names = "arm1"',
-        "own_arm.toml: robot: unknown key 'names'; did you mean 'name'?; known: file, name, grippers",
+        "own_arm.toml: robot: unknown key 'names'; did you mean 'name'?; known: file, folder, name",
     ),
     ('palm = "palm"\n', "", "robot.grippers.gripper1: the key 'palm' is missing; needed: palm, tool"),
     (

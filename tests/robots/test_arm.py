@@ -12,7 +12,7 @@ from prolepsis.fluents import recognize
 from prolepsis.log.log import Log
 from prolepsis.robots.arm_paths import is_of
 from prolepsis.robots.inverse import ArmKinematics, Found
-from prolepsis.robots.model_file import OTHERS, OWN
+from prolepsis.robots.model_fitting import OTHERS, OWN
 from prolepsis.robots.pr2 import PR2
 
 BLOCK = (

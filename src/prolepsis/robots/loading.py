@@ -63,7 +63,7 @@ def load_robot(own: OwnRobot, folder: Path, table: str = "robot") -> Robot:
     """
     told = {name: read_effector(given, f"{table}.grippers.{name}") for name, given in own.grippers.items()}
     path = folder / own.file
-    file = read_model_file(path)
+    file = read_model_file(path, None if own.folder is None else folder / own.folder)
     first: Any = file.spec.compile()
     where = {name: f"{path}: gripper {name}" for name in own.grippers}
     opening = {

@@ -12,7 +12,7 @@ from pathlib import Path
 from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers import expat
 
-from prolepsis.system.text_files import read_bytes
+from prolepsis.system.text_files import is_file, read_bytes
 from prolepsis.terms.errors import ScenarioError
 
 MOST_BYTES = 16 * 2**20
@@ -85,6 +85,11 @@ _OF_MOTORS = {
     *("forcerange", "forcelimited", "ctrlrange", "ctrllimited", "cranklength"),
 }
 """Of a motor only its effort is read."""
+_OF_KEYS = {"name", "class", "qpos"}
+"""Of a keyframe only where the joints are is read; what motors and mocap bodies do there goes with them."""
+_WANTED = {"key": _OF_KEYS, "material": {"name", "class", "rgba"}}
+_LOOKS_OF_MESHES = {"material", "content_type"}
+"""Of a mesh how it looks, and what its file is: the ending tells that."""
 _OF_MESHES = {
     *("name", "class", "file", "filename", "scale", "refpos", "refquat", "vertex", "normal", "texcoord", "face"),
     *("inertia", "maxhullvert", "smoothnormal"),
@@ -98,19 +103,23 @@ _NAMES = {
 """Attributes that are names, so that ``inf`` may be one."""
 
 
-def read_model_tree(path: Path) -> Element:
+def read_model_tree(path: Path, folder: Path | None = None) -> Element:
     """Return the robot in an MJCF or URDF file, its includes in their places.
+
+    Args:
+        path: The file.
+        folder: Where all that it includes must be; see ``home_of``.
 
     Raises:
         ScenarioError: If it cannot be read, is too large, or holds something that is not allowed.
     """
     content = read_bytes(path, "robot file", most=MOST_BYTES, error=ScenarioError)
     root = _parse(path, content, path)
-    folder = path.resolve().parent
     if root.tag == "robot":
+        _refuse_macros(root, path)
         _only(root, _URDF)
     elif root.tag == "mujoco":
-        _include(root, path, folder, [path.resolve()], [len(content)])
+        _include(root, path, home_of(path, folder), path.resolve().parent, [path.resolve()], [len(content)])
         _refuse_sizes(root, path)
         _keep_listed(root, path)
     else:
@@ -133,10 +142,10 @@ def _refuse_deep(root: Element, path: Path) -> None:
         raise ScenarioError(f"{path}: the robot has elements within more than {DEEPEST} others")
 
 
-def short(text: str) -> str:
+def short(text: str, most: int = MOST_SAID) -> str:
     """Return a foreign text on one line that is not long."""
     line = " ".join(text.split())
-    return line if len(line) <= MOST_SAID else f"{line[: MOST_SAID - 3]}..."
+    return line if len(line) <= most else f"{line[: most - 3]}..."
 
 
 def _parse(file: Path, content: bytes, path: Path) -> Element:
@@ -172,17 +181,20 @@ def _parse(file: Path, content: bytes, path: Path) -> Element:
         ) from None
 
 
-def _include(root: Element, path: Path, folder: Path, seen: list[Path], read: list[int]) -> None:
+def _include(root: Element, path: Path, folder: Path, own: Path, seen: list[Path], read: list[int]) -> None:
     """Put what is included in the place of each include, each file once, none from outside the robot's folder."""
     for parent in list(root.iter()):
         for index, child in reversed(list(enumerate(parent))):
             if child.tag != "include":
                 continue
             named = child.get("file", "")
-            file = inside(folder, Path(named))
+            # As MuJoCo does: beside the robot's file, else beside the file that includes it.
+            found = [inside(folder, beside / named) for beside in (path.resolve().parent, own)]
+            file = next((each for each in found if each is not None and is_file(each)), found[0])
             if file is None:
                 raise ScenarioError(
-                    f"{path}: include {short(named)}: is not in the robot's folder; allowed: files there"
+                    f"{path}: include {short(named)}: is not in the robot's folder; allowed: files there, or in the "
+                    f"one above it that folder in [robot] names"
                 )
             if file in seen:
                 raise ScenarioError(f"{path}: include {short(named)}: is included twice, or includes itself")
@@ -194,8 +206,28 @@ def _include(root: Element, path: Path, folder: Path, seen: list[Path], read: li
             if sum(read) > MOST_BYTES:
                 raise ScenarioError(f"{path}: the robot's files are too long: more than {MOST_BYTES:,} bytes together")
             included = _parse(file, content, path)
-            _include(included, path, folder, seen, read)
+            _include(included, path, folder, file.parent, seen, read)
             parent[index : index + 1] = list(included)
+
+
+def home_of(path: Path, folder: Path | None) -> Path:
+    """Return the folder in which all files that a robot's file names must be.
+
+    Args:
+        path: The robot's file.
+        folder: The folder that is told; if None it is the nearest above the file with a ``package.xml``, since a
+            robot's description often has a folder of models and one of meshes, or else its own.
+
+    Raises:
+        ScenarioError: If the file is not in the folder that is told.
+    """
+    here = path.resolve().parent
+    if folder is None:
+        return next((each for each in here.parents if (each / "package.xml").is_file()), here)
+    told = folder.resolve()
+    if not here.is_relative_to(told):
+        raise ScenarioError(f"{path}: the robot is not in the folder {short(str(folder))}; allowed: one above it")
+    return told
 
 
 def inside(folder: Path, file: Path) -> Path | None:
@@ -227,14 +259,26 @@ def _keep_listed(root: Element, path: Path) -> None:
             elif child.tag not in _HOLDS.get(parent.tag, ()):
                 allowed = ", ".join(sorted(_HOLDS.get(parent.tag, {"nothing"})))
                 raise ScenarioError(f"{path}: {parent.tag} holds a {short(child.tag)[:40]}; allowed: {allowed}")
-        wanted = _OF_MOTORS if parent.tag in _MOTORS else None
-        if parent.tag == "material":
-            wanted = {"name", "class", "rgba"}
+        wanted = _OF_MOTORS if parent.tag in _MOTORS else _WANTED.get(parent.tag)
         if wanted is not None:
             parent.attrib = {name: value for name, value in parent.attrib.items() if name in wanted}
+        if parent.tag == "dcmotor":
+            # Without its windings it is a motor like others.
+            parent.tag = "motor"
+        if parent.tag == "mesh":
+            parent.attrib = {name: value for name, value in parent.attrib.items() if name not in _LOOKS_OF_MESHES}
         if parent.tag == "mesh" and not parent.attrib.keys() <= _OF_MESHES:
             unknown = short(min(parent.attrib.keys() - _OF_MESHES))
             raise ScenarioError(f"{path}: mesh has {unknown}; allowed: {', '.join(sorted(_OF_MESHES))}")
+
+
+def _refuse_macros(root: Element, path: Path) -> None:
+    """Refuse a URDF that is still to be written out, which would be read as a robot without what its macros make."""
+    for each in root.iter():
+        if each.tag.startswith("xacro:"):
+            raise ScenarioError(
+                f"{path}: robot holds a {short(each.tag)[:40]}; allowed: a URDF that xacro has written out"
+            )
 
 
 def _only(root: Element, allowed: set[str]) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 from prolepsis.log.things import Thing
 from prolepsis.robots.effectors.kind import KINDS
 from prolepsis.robots.model import robot_model
-from prolepsis.robots.model_file import OTHERS, OWN
+from prolepsis.robots.model_fitting import OTHERS, OWN
 from prolepsis.robots.model_shapes import touches
 from prolepsis.scene.kind import Building
 from prolepsis.scene.robot import Arm, Joint, Robot

@@ -26,11 +26,12 @@ SECONDS = 60
 PASSED, REFUSED = 0, 2
 
 
-def try_robot(path: Path, model: bytes, meshes: Iterable[Path]) -> None:
+def try_robot(path: Path, folder: Path | None, model: bytes, meshes: Iterable[Path]) -> None:
     """Refuse a robot that the process which reads it does not survive.
 
     Args:
         path: Its file.
+        folder: Where all files that it names must be, if that is told.
         model: What MuJoCo is given of it.
         meshes: Files that MuJoCo reads.
 
@@ -43,11 +44,12 @@ def try_robot(path: Path, model: bytes, meshes: Iterable[Path]) -> None:
     passed = cache_root() / "robots" / seen.hexdigest()
     if read_kept(passed) is not None:
         return
-    with tempfile.TemporaryDirectory() as folder:
+    told = [] if folder is None else [str(folder.absolute())]
+    with tempfile.TemporaryDirectory() as scratch:
         # MuJoCo writes its warnings into the working folder.
         ended = subprocess.run(
-            [sys.executable, "-m", f"{__name__}_of_one", str(path.absolute())],
-            cwd=folder,
+            [sys.executable, "-m", f"{__name__}_of_one", str(path.absolute()), *told],
+            cwd=scratch,
             env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
             stdin=subprocess.DEVNULL,
             capture_output=True,

@@ -10,7 +10,7 @@ from prolepsis.robots.trial import MEMORY, PASSED, REFUSED, SECONDS
 from prolepsis.terms.errors import InputError
 
 
-def main(path: Path) -> int:
+def main(path: Path, folder: Path | None = None) -> int:
     """Read a robot within limits; print why, if it is refused."""
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
@@ -19,7 +19,7 @@ def main(path: Path) -> int:
     from prolepsis.robots.model_file import read_model_file
 
     try:
-        read_model_file(path, tried=True)
+        read_model_file(path, folder, tried=True)
     except InputError as error:
         sys.stdout.write(str(error))
         return REFUSED
@@ -27,4 +27,4 @@ def main(path: Path) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(Path(sys.argv[1])))
+    sys.exit(main(*map(Path, sys.argv[1:])))

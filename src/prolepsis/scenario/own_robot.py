@@ -59,6 +59,9 @@ class OwnRobot:
 
     file: str
     """The model, MJCF or URDF."""
+    folder: str | None = None
+    """Where all files that the model names must be; the model's own folder, or the nearest above it with a
+    ``package.xml``, if None."""
     name: Annotated[str, Field(max_length=60)] = "robot1"
     """Name of the robot in the situation."""
     grippers: Annotated[Mapping[str, OwnGripper], Field(min_length=1, max_length=16)]
