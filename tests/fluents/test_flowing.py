@@ -137,6 +137,20 @@ def test_a_cup_with_a_hole_leaks() -> None:
     assert [row["C"] for row in timeline.ask("occurs(leaking(C, liq1), _)")] == ["cup1"]
     assert not timeline.ask("occurs(pouringTo(_, _, _), _)")
     assert not timeline.ask("occurs(overflowing(_, _), _)")
+    ((since, until),) = times(timeline, "contains(cup1,liq1)")
+    assert since == 0.0 and out.start < until <= out.end
+
+
+def test_what_falls_through_a_vessel_without_staying_is_not_contained() -> None:
+    hole = Hole(position=(0.0, 0.0, -0.01), direction=(0.0, 0.0, 1.0), radius=0.02)
+    funnel = vessel(at=(0.0, 0.0, 0.3), holes=(hole,))
+    drops = poured(0.45, 0.6, radius=0.01)
+    fall = 4.9 * np.square(np.arange(FRAMES) * EVERY * DT)
+    way = np.broadcast_to(drops, (FRAMES, *drops.shape)).copy()
+    way[:, :, 2] = np.maximum(way[:, :, 2] - fall[:, None], D / 2)
+    assert says(recognize(wet([table(), funnel], {"liq1": way}, ticks=TICKS))) == {
+        "spilled(liq1)", "supports(table1,liq1)",
+    }  # fmt: skip
 
 
 def test_a_box_of_boards_with_a_gap_leaks() -> None:

@@ -117,8 +117,16 @@ SCENES: dict[str, tuple[Sequence[Thing], FloatArray, set[str]]] = {
     "beside the cup": ([vessel()], puddle(0.07, 0), ON_TABLE),
     "puddle against the cup's foot": ([vessel()], ring(RADIUS + D / 2, 0, D), ON_TABLE),
     "a hole in the side, filled below it": ([vessel(holes=SIDE_HOLE)], poured(high=0.03), IN),
-    "a hole in the side, liquid above it": ([vessel(holes=SIDE_HOLE)], poured(low=0.055), NOTHING),
-    "a hole in the bottom": ([vessel(holes=BOTTOM_HOLE)], poured(high=0.045), NOTHING),
+    "a hole in the side, liquid above it": ([vessel(holes=SIDE_HOLE)], poured(low=0.055), IN),
+    "a hole in the bottom": ([vessel(holes=BOTTOM_HOLE)], poured(high=0.045), IN),
+    "holes in side and bottom": ([vessel(holes=SIDE_HOLE + BOTTOM_HOLE)], poured(high=0.07), IN),
+    "a hole in the bottom of a cup on its side": (
+        [vessel(at=(0.0, 0.0, RADIUS), turn=tilted(90.0), holes=BOTTOM_HOLE)], level_in(LYING, 0.012), NOTHING),
+    "a hole in the bottom, tilted by 60 degrees": (
+        [vessel(at=(0.0, 0.0, 0.1), turn=tilted(60.0), holes=BOTTOM_HOLE)], level_in(leaning(60), lip(60)), IN),
+    "a hole in the bottom, tilted by 60 degrees, above the lip": (
+        [vessel(at=(0.0, 0.0, 0.1), turn=tilted(60.0), holes=BOTTOM_HOLE)],
+        above(lip(60) + D, level_in(leaning(60), 1.0)), NOTHING),
     "a hoop": ([vessel(profile=HOOP)], poured(0.0, 0.045), ON_TABLE),
     "a lidded cup": ([vessel(profile=LIDDED)], poured(high=0.045), IN),
     "a lidded cup upside down": ([vessel(profile=LIDDED, at=(0, 0, HEIGHT), turn=tilted(180.0))],
@@ -208,3 +216,12 @@ def test_the_evidence_tells_fraction_volume_and_depth() -> None:
     assert float(contained.evidence["depth"]) == pytest.approx(HEIGHT - (WALL + 0.045) / 2, abs=0.002)
     assert spilled.evidence["fraction"] == supported.evidence["fraction"] == pytest.approx(1 - share)
     assert spilled.evidence["mass"] == pytest.approx((1 - share) * len(points) * 1000 * D**3)
+
+
+def test_what_is_in_a_closed_vessel_is_no_deeper_than_the_vessel() -> None:
+    from tests.fluents.liquids import wet
+
+    (contained,) = recognize(wet([table(), vessel(profile=LIDDED)], {"liq1": poured(high=0.045)})).select(
+        type="contains"
+    )
+    assert float(contained.evidence["depth"]) == pytest.approx(HEIGHT - WALL - (WALL + 0.045) / 2, abs=0.003)

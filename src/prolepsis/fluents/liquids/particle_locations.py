@@ -13,11 +13,12 @@ import numpy as np
 import numpy.typing as npt
 
 from prolepsis.fluents.hollows import NEAR, PLUG, hollows_of
+from prolepsis.fluents.intervals import ticks_of
 from prolepsis.fluents.kernels.matter import assembled
 from prolepsis.fluents.observation import Observation, is_held_from_outside
 from prolepsis.fluents.shapes_in_time import Part, RigidShape, rigid_shapes
 from prolepsis.geometry.hollows import BLOCKED, Space
-from prolepsis.geometry.rotations import rotate
+from prolepsis.geometry.rotations import rotate, rotate_back
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.geometry.spreading import spread
 from prolepsis.log.log import FREE, Particles
@@ -33,6 +34,9 @@ steeper wall it runs."""
 RESTING_SPEED = 0.1
 """Speed relative to a surface [m/s] below which a liquid rests on it: a puddle that still spreads slowly does, a sheet
 that runs off does not."""
+STAYING_WINDOW = 0.1
+"""Time over which a particle above a hole must move no faster than ``RESTING_SPEED`` relative to the vessel to stay in
+it [s]: the level of a cup that leaks sinks by some 1-3 cm/s, what falls through a funnel is faster."""
 NEIGHBOURS = 1.2
 """Greatest distance of neighbours in a liquid [spacings]."""
 
@@ -83,7 +87,8 @@ class Inside:
     unit: int
     """The container."""
     pool: BoolArray
-    """Below the spill level, so that they could not leave at rest, shape (F, P)."""
+    """Below the spill level, so that they could not leave at rest, or staying below that with the holes stopped, shape
+    (F, P)."""
     hollow: BoolArray
     """Within the hollow, be it that they run along its wall or fall through its air, or in the pool, shape (F, P)."""
     near: BoolArray
@@ -235,22 +240,61 @@ def _seen_inside(observation: Observation, particles: Particles, loose: BoolArra
         return None
     free = rim.space.distance >= BLOCKED * space.step
     near = spread(within, free, max(1, round(NEAR * spacing / space.step)))
-    bits = np.zeros(loose.shape, dtype=np.uint8)
+    bits, over_holes = np.zeros(loose.shape, dtype=np.uint8), np.zeros(loose.shape, dtype=np.uint8)
     depth = np.zeros(loose.shape, dtype=np.float32)
+    is_level = rim.space is space and not rim.plug
+    # The cracks of a fragment are no holes of a vessel, which one would call whole but for them.
+    has_holes = not is_level and not observation.has_role(shape.body, "Piece")
     for direction in np.unique(which[during]).tolist():
         up = hollows.up[direction]
+        frames = np.flatnonzero(during & (which == direction))
         pool = space.pools(up)
-        if rim.space is space and not rim.plug:
+        if is_level:
             rim.levels[direction] = float(pool.max())
+        pool = _covered(space, up, pool)
+        if has_holes:
+            pool_bits(
+                particles.position, frames, loose, poses, up, space.origin, space.step, rim.space.distance,
+                _stopped(rim, space, up), within, near, spacing, SURFACE_TOLERANCE * spacing, over_holes, depth,
+            )  # fmt: skip
         pool_bits(
-            particles.position, np.flatnonzero(during & (which == direction)), loose, poses, up, space.origin,
+            particles.position, frames, loose, poses, up, space.origin,
             space.step, space.distance, pool, within, near, spacing, SURFACE_TOLERANCE * spacing, bits, depth,
         )  # fmt: skip
     pool = (bits & POOL) > 0
+    doubtful = ((over_holes & POOL) > 0) & ~pool
+    if doubtful.any():
+        pool |= doubtful & _stays(observation, particles, poses)
     hollow = pool | ((bits & HOLLOW) > 0)
     near = hollow | ((bits & ROUND) > 0)
     unit = int(observation.unit[shape.body])
     return Inside(unit=unit, pool=pool, hollow=hollow, near=near, depth=depth, rims=(rim,))
+
+
+def _covered(space: Space, up: FloatArray, levels: FloatArray) -> FloatArray:
+    """Return spill levels with those of closed hollows, which are infinite, at their highest place [m]."""
+    closed = np.isposinf(levels)
+    return np.where(closed, space.heights(up)[closed].max(), levels) if closed.any() else levels
+
+
+def _stopped(rim: Rim, space: Space, up: FloatArray) -> FloatArray:
+    """Return the spill level of each node with the holes stopped [m], those within drilled holes included."""
+    levels = _covered(rim.space, up, rim.space.stopped(up, rim.plug))
+    highest = float(levels.max())
+    drilled = (rim.space.distance < 0.0) & (space.distance >= 0.0) & (space.heights(up) <= highest)
+    return np.where(drilled, highest, levels)
+
+
+def _stays(observation: Observation, particles: Particles, poses: FloatArray) -> BoolArray:
+    """Return which particles hardly move in the frame of a body with some poses, shape (F, P)."""
+    local = rotate_back(poses[:, None, 3:], particles.position - poses[:, None, :3])
+    tick, half = particles.tick, ticks_of(STAYING_WINDOW / 2, observation.dt)
+    first = np.maximum(np.searchsorted(tick, tick - half, side="right") - 1, 0)
+    last = np.minimum(np.searchsorted(tick, tick + half), len(tick) - 1)
+    time = np.maximum((tick[last] - tick[first]) * observation.dt, 1e-9)
+    path = local[last] - local[first]
+    stays: BoolArray = np.einsum("fpc,fpc->fp", path, path) < np.square(RESTING_SPEED * time)[:, None]
+    return stays
 
 
 def _touching(
