@@ -179,3 +179,67 @@ def test_all_of_both_tables_are_listed_with_a_line() -> None:
     table2 = {"colliding", "falling", "moving", "openingGripper", "closingGripper", "breaking", "spilling"}
     assert table2 <= set(EVENTS)
     assert all(known.doc for known in (*FLUENTS.values(), *EVENTS.values()))
+
+
+def edge_draft(ticks: int = 1000) -> Draft:
+    """Return a board in the air, and two hands that each have a pad above and a pad below it."""
+    board = replace(solid_box("tray1", mass=0.4), position=(0.0, 0.0, 0.15))
+    draft = Draft(ticks, [floor(), *hand("handL"), *hand("handR"), board])
+    for name in ("handL", "handR"):
+        draft.carrier[:, draft.index(name)] = -1
+    return draft
+
+
+def clamp(draft: Draft, name: str, start: int, end: int, palm: float = 0.0) -> None:
+    """Let a hand press on the board from above and below, and with its palm along y [N]."""
+    draft.press(f"{name}/left_finger", "tray1", start, end, (0.0, 0.0, -20.0), (0.0, 0.0, -1.0))
+    draft.press(f"{name}/right_finger", "tray1", start, end, (0.0, 0.0, 22.0), (0.0, 0.0, 1.0))
+    if palm:
+        draft.press(f"{name}/palm", "tray1", start, end, (0.0, palm, 0.0), (0.0, float(np.sign(palm)), 0.0))
+
+
+@pytest.mark.parametrize("palm", [0.0, 100.0])
+def test_each_of_two_hands_holds_what_both_grip(palm: float) -> None:
+    draft = edge_draft()
+    clamp(draft, "handL", 0, 1000, palm)
+    clamp(draft, "handR", 0, 1000, -palm)
+    timeline = recognize(draft.log())
+    for name in ("handL", "handR"):
+        assert times(timeline, f"attached({name},tray1)") == [(0.0, 1.0)]
+    assert all(fact.evidence["pad_force"] == pytest.approx(21.0) for fact in timeline.select(type="attached"))
+
+
+def test_in_a_handover_the_holds_overlap() -> None:
+    draft = edge_draft()
+    clamp(draft, "handL", 0, 600)
+    clamp(draft, "handR", 400, 1000)
+    timeline = recognize(draft.log())
+    assert times(timeline, "attached(handL,tray1)") == [(0.0, 0.6)]
+    assert times(timeline, "attached(handR,tray1)") == [(0.4, 1.0)]
+    goal = "holds(attached(handL, tray1), A), holds(attached(handR, tray1), B), overlaps(A, B)"
+    assert timeline.ask(goal)
+
+
+def test_what_swings_in_a_pinch_is_held_and_what_runs_through_the_pads_is_not() -> None:
+    draft = grasp_draft()
+    squeeze(draft, 0, 1000)
+    angle = np.linspace(0.0, 2.0, 1000)
+    egg1 = draft.index("egg1")
+    draft.poses[:, egg1, 3], draft.poses[:, egg1, 5] = np.cos(angle / 2), np.sin(angle / 2)
+    assert times(recognize(draft.log()), "attached(rightGripper,egg1)") == [(0.0, 1.0)]
+    draft.poses[:, egg1, 2] = 0.05 - 0.1 * np.maximum(np.arange(1000) - 500, 0) * 0.001
+    ((_, end),) = times(recognize(draft.log()), "attached(rightGripper,egg1)")
+    assert end == pytest.approx(0.5, abs=0.03)
+
+
+def test_what_is_gripped_and_dragged_over_a_table_is_attached() -> None:
+    draft = grasp_draft()
+    squeeze(draft, 100, 900)
+    draft.rest("floor", "egg1", 0, 1000, 0.98)
+    way = 0.05 * np.clip(np.arange(1000) - 300, 0, 400) * 0.001
+    for i, thing in enumerate(draft.things):
+        if thing.name != "floor":
+            draft.poses[:, i, 0] += way
+    ((start, end),) = times(recognize(draft.log()), "attached(rightGripper,egg1)")
+    assert start == pytest.approx(0.3, abs=0.03)
+    assert end == pytest.approx(0.7, abs=0.03)

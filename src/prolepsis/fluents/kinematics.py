@@ -8,8 +8,8 @@ import numpy as np
 
 from prolepsis.fluents.intervals import ticks_of
 from prolepsis.fluents.observation import Observation
-from prolepsis.geometry.rotations import angle_between, rotate
-from prolepsis.geometry.shape import BoolArray, FloatArray
+from prolepsis.geometry.rotations import angle_between, cross, rotate, rotation_vectors
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.geometry.solids import centroid, radius
 
 BALANCE_WINDOW = 0.05
@@ -45,6 +45,22 @@ def velocities(observation: Observation) -> FloatArray:
             changed = carrier[tick] != carrier[tick - 1]
             found[changed, tick - 1] = found[changed, tick - 2]
     return found
+
+
+def point_velocities(observation: Observation, thing: IntArray, tick: IntArray, point: FloatArray) -> FloatArray:
+    """Return how fast points that move with things do so during some ticks but the last [m/s], shape (N, 3).
+
+    Args:
+        observation: The log.
+        thing: What each point moves with, shape (N,).
+        tick: When, shape (N,).
+        point: Where it is then, world frame [m], shape (N, 3).
+    """
+    quaternions = observation.log.poses[:, :, 3:]
+    now, later = quaternions[tick, thing], quaternions[tick + 1, thing]
+    spin = rotation_vectors(now, later) / observation.dt
+    arm = point - observation.of(centres)[thing, tick]
+    return observation.of(velocities)[thing, tick] + cross(spin, arm)
 
 
 def heights(observation: Observation) -> FloatArray:

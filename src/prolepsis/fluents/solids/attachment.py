@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 
-from prolepsis.fluents.intervals import close_gaps, debounce, mask_of, ticks_of, union
-from prolepsis.fluents.kinematics import centres
+from prolepsis.fluents.intervals import close_gaps, debounce, hysteresis, mask_of, one_sided_means, ticks_of, union
+from prolepsis.fluents.kinematics import centres, point_velocities
 from prolepsis.fluents.observation import Observation, is_held_from_outside, is_loose
 from prolepsis.fluents.registry import fluent
 from prolepsis.fluents.solids.contact import FLICKER, is_stuff
@@ -22,6 +23,9 @@ SQUEEZE = 0.5
 """Least share of the pressing forces [1] that cancel out in a grip; in a groove of 45 degrees it is 0.3."""
 TOGETHER_SPEED = 0.01
 """Speed of slipping [m/s] below which two things move together."""
+LOST_SPEED = 0.05
+"""Speed of slipping [m/s] up to which a grip that began keeps what it holds: what swings in a pinch creeps by
+2 cm/s, what slips faster is out of a pad of 2 cm within half a second."""
 TOGETHER_WINDOW = 0.05
 """Time over which slipping is taken [s]."""
 HOLD_GAP = 0.05
@@ -41,9 +45,9 @@ class Grip:
     force: FloatArray
     """Half the sum of the normal forces, which for two pads is the force of one [N], shape (T,)."""
     slip_speed: FloatArray
-    """Speed of b's middle relative to what presses most [m/s], shape (T,)."""
+    """Speed of b where it is pressed relative to what presses there [m/s], shape (T,)."""
     position: FloatArray
-    """b's middle in the frame of what presses most [m], shape (T, 3)."""
+    """How far b has got on there, in the frame of what presses most [m], shape (T, 3)."""
     stretches: IntArray
     """When it holds."""
 
@@ -105,15 +109,17 @@ def grips(observation: Observation) -> tuple[Grip, ...]:
                 by_held.setdefault(unit, []).append(touch)
     found: list[Grip] = []
     for held, several in by_held.items():
+        pressing: list[Grip] = []
         hands: list[Touch] = []
         for touch in several:
             holder = touch.a if touch.b == held else touch.b
             if _presses_from_two_bodies(observation, touch, holder):
-                found += _grip(observation, held, [touch])
+                pressing += _pressing(observation, held, [touch])
             elif is_held_from_outside(observation, holder) or observation.has_role(holder, "Mounted"):
                 hands.append(touch)
         if len(hands) > 1:
-            found += _grip(observation, held, hands)
+            pressing += _pressing(observation, held, hands)
+        found += [kept for grip in pressing for kept in _keeping(observation, grip, pressing)]
     return tuple(found)
 
 
@@ -125,45 +131,127 @@ def _presses_from_two_bodies(observation: Observation, touch: Touch, unit: int) 
     return bool((side != side[0]).any())
 
 
-def _grip(observation: Observation, held: int, several: list[Touch]) -> list[Grip]:
+def _pressing(observation: Observation, held: int, several: list[Touch]) -> list[Grip]:
+    """Return a grip whose stretches are when it presses so, whether or not it keeps what it presses on; or none."""
     contacts, count = observation.log.contacts, observation.tick_count
     rows = np.concatenate([touch.rows for touch in several])
     mine = observation.unit[contacts.b[rows]] == held
     other = np.where(mine, contacts.a[rows], contacts.b[rows])
     press = np.abs(np.einsum("ci,ci->c", contacts.force[rows], contacts.normal[rows]))
     push = contacts.normal[rows] * (np.where(mine, 1.0, -1.0) * press)[:, None]
-    total = np.bincount(contacts.tick[rows], press, count)
-    sums = [np.bincount(contacts.tick[rows], push[:, k], count) for k in range(3)]
-    squeeze = total - np.sqrt(sums[0] ** 2 + sums[1] ** 2 + sums[2] ** 2)
     weight = observation.mass(held) * observation.gravity
-    gripping = (squeeze > NOTICEABLE_SHARE * weight) & (squeeze > SQUEEZE * total)
+    gripping, force = _squeezed(contacts.tick[rows], press, push, weight)
+    bodies, holds = sorted(set(other.tolist())), gripping[contacts.tick[rows]]
+    # Two pads hold a thing even if a palm, against which something else pushes it, presses more.
+    for pair in combinations(bodies, 2) if len(bodies) > 2 else ():
+        of_pair = np.isin(other, pair)
+        more, between = _squeezed(contacts.tick[rows[of_pair]], press[of_pair], push[of_pair], weight)
+        force = np.where(more & ~gripping, between, force)
+        gripping |= more
+        holds |= of_pair & more[contacts.tick[rows]]
     if not gripping.any():
         return []
     body = int(np.argmax(np.bincount(other, press)))
-    pose = observation.log.poses[:, body]
-    position = rotate_back(pose[:, 3:], observation.of(centres)[held] - pose[:, :3])
-    speed = _slip_speed(position, observation.dt)
+    known = np.bincount(contacts.tick[rows[holds]], minlength=count) > 0
+    own = np.where(mine, contacts.b[rows], contacts.a[rows])
+    slipping = _slipping(observation, rows[holds], own[holds], other[holds], press[holds])
+    velocity = rotate_back(observation.log.poses[:, body, 3:], slipping)
     holders = tuple(sorted({touch.a if touch.b == held else touch.b for touch in several}))
-    firm = mask_of(debounce(gripping, observation.dt, gap=FLICKER), count) & (speed < TOGETHER_SPEED)
-    firm &= ~_carried_by_others(observation, held, holders)
-    stretches = debounce(firm, observation.dt, gap=HOLD_GAP, least=HOLD_LEAST)
-    if not len(stretches):
-        return []
-    grip = Grip(holders=holders, held=held, force=total / 2, slip_speed=speed, position=position, stretches=stretches)
+    grip = Grip(
+        holders=holders,
+        held=held,
+        force=force,
+        slip_speed=_slip_speed(velocity, observation.dt, known),
+        position=np.cumsum(velocity, axis=0) * observation.dt,
+        stretches=debounce(gripping, observation.dt, gap=FLICKER),
+    )
     return [grip]
 
 
-def _slip_speed(position: FloatArray, dt: float) -> FloatArray:
-    count, half = len(position), ticks_of(TOGETHER_WINDOW / 2, dt)
-    now = np.arange(count)
-    first, last = np.maximum(now - half, 0), np.minimum(now + half, count - 1)
-    # While the grip closes or opens one side of the window is outside it, so the steadier side counts.
-    past = np.linalg.norm(position - position[first], axis=1) / (np.maximum(now - first, 1) * dt)
-    future = np.linalg.norm(position[last] - position, axis=1) / (np.maximum(last - now, 1) * dt)
-    past[first == now], future[last == now] = np.inf, np.inf
-    return np.minimum(past, future)
+def _squeezed(tick: IntArray, press: FloatArray, push: FloatArray, weight: FloatArray) -> tuple[BoolArray, FloatArray]:
+    """Return when pressing forces cancel out enough to hold a weight, and half their sum [N], each of shape (T,).
+
+    Args:
+        tick: When each presses, shape (R,).
+        press: How much it does [N], shape (R,).
+        push: The same as a vector [N], shape (R, 3).
+        weight: What is to be held [N], shape (T,).
+    """
+    total = np.bincount(tick, press, len(weight))
+    sums = [np.bincount(tick, push[:, k], len(weight)) for k in range(3)]
+    squeeze = total - np.sqrt(sums[0] ** 2 + sums[1] ** 2 + sums[2] ** 2)
+    enough: BoolArray = (squeeze > NOTICEABLE_SHARE * weight) & (squeeze > SQUEEZE * total)
+    return enough, total / 2
 
 
-def _carried_by_others(observation: Observation, held: int, holders: tuple[int, ...]) -> BoolArray:
-    several = [stretches for below, stretches in observation.of(supporters).get(held, []) if below not in holders]
-    return mask_of(union(several), observation.tick_count)
+def _slipping(
+    observation: Observation, rows: IntArray, held: IntArray, other: IntArray, press: FloatArray
+) -> FloatArray:
+    """Return how fast what is held gets on where it is pressed [m/s], relative to what presses there, shape (T, 3).
+
+    What swings between two pads turns about where they press, and does not get on there.
+    """
+    contacts, count = observation.log.contacts, observation.tick_count
+    found = np.zeros((count, 3))
+    if count < 2:
+        return found
+    tick, point = np.minimum(contacts.tick[rows], count - 2), contacts.point[rows]
+    relative = point_velocities(observation, held, tick, point) - point_velocities(observation, other, tick, point)
+    total = np.maximum(np.bincount(contacts.tick[rows], press, count), 1e-12)
+    for axis in range(3):
+        found[:, axis] = np.bincount(contacts.tick[rows], press * relative[:, axis], count) / total
+    return found
+
+
+def _keeping(observation: Observation, grip: Grip, several: list[Grip]) -> list[Grip]:
+    """Return the grip with the stretches in which it keeps what it holds, if there are any."""
+    count = observation.tick_count
+    firm = mask_of(grip.stretches, count) & (grip.slip_speed < LOST_SPEED)
+    for below, stretches in observation.of(supporters).get(grip.held, []):
+        if below in grip.holders:
+            continue
+        carried = mask_of(stretches, count)
+        for other in several:
+            if below in other.holders:
+                # A pad that lies under a thing bears it, too, and each of two hands holds what both grip.
+                carried &= ~mask_of(other.stretches, count)
+        firm &= ~carried | _dragged(observation, below, grip.held)
+    firm = _since(firm, grip.slip_speed < TOGETHER_SPEED)
+    stretches = debounce(firm, observation.dt, gap=HOLD_GAP, least=HOLD_LEAST)
+    return [replace(grip, stretches=stretches)] if len(stretches) else []
+
+
+def _since(mask: BoolArray, begun: BoolArray) -> BoolArray:
+    """Return ``mask`` without what comes, in each of its runs, before something has begun, shape (T,)."""
+    found = np.zeros_like(mask)
+    for start, end in hysteresis(mask, begun).tolist():
+        found[start + int(np.argmax(begun[start:end])) : end] = True
+    return found
+
+
+def _dragged(observation: Observation, below: int, held: int) -> BoolArray:
+    """Return when a thing gets on over what bears it, shape (T,)."""
+    pose = observation.log.poses[:, below]
+    position = rotate_back(pose[:, 3:], observation.of(centres)[held] - pose[:, :3])
+    velocity = np.diff(position, axis=0, append=position[-1:]) / observation.dt
+    every = np.ones(observation.tick_count, dtype=np.bool_)
+    return _slip_speed(velocity, observation.dt, every) > TOGETHER_SPEED
+
+
+def _slip_speed(velocity: FloatArray, dt: float, known: BoolArray) -> FloatArray:
+    """Return how fast something gets on over half a window before or after each tick [m/s], shape (T,).
+
+    Args:
+        velocity: During each tick [m/s], shape (T, 3).
+        dt: Tick [s].
+        known: The ticks in which the velocity is known, shape (T,).
+    """
+    half = ticks_of(TOGETHER_WINDOW / 2, dt)
+    sides = [one_sided_means(velocity[:, axis], half) for axis in range(3)]
+    shares = one_sided_means(known.astype(np.float64), half)
+    found = np.full(len(velocity), np.inf)
+    for k in range(2):
+        # While the grip closes or opens one side of the window is outside it, so the steadier side counts.
+        path = np.sqrt(sides[0][k] ** 2 + sides[1][k] ** 2 + sides[2][k] ** 2)
+        found = np.minimum(found, np.where(shares[k] > 0, path / np.maximum(shares[k], 1e-12), np.inf))
+    return found

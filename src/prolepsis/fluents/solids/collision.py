@@ -7,13 +7,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from prolepsis.fluents.intervals import ticks_of
-from prolepsis.fluents.kinematics import centres, surface_speeds, velocities
+from prolepsis.fluents.kinematics import point_velocities, surface_speeds
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event
 from prolepsis.fluents.solids.contact import is_stuff, pair_names
 from prolepsis.fluents.solids.touch import Touch, touches
-from prolepsis.geometry.rotations import cross, rotation_vectors
-from prolepsis.geometry.shape import FloatArray, IntArray
+from prolepsis.geometry.shape import FloatArray
 from prolepsis.log.timeline import Fact
 
 MEETING_SPEED = 0.05
@@ -78,18 +77,10 @@ def closing_speeds(observation: Observation) -> FloatArray:
     if not len(chosen):
         return found
     tick, point = before[chosen], contacts.point[chosen]
-    relative = _point_velocity(observation, contacts.a[chosen], tick, point)
-    relative -= _point_velocity(observation, contacts.b[chosen], tick, point)
+    relative = point_velocities(observation, contacts.a[chosen], tick, point)
+    relative -= point_velocities(observation, contacts.b[chosen], tick, point)
     found[chosen] = np.einsum("ci,ci->c", relative, contacts.normal[chosen])
     return found
-
-
-def _point_velocity(observation: Observation, thing: IntArray, tick: IntArray, point: FloatArray) -> FloatArray:
-    quaternions = observation.log.poses[:, :, 3:]
-    now, later = quaternions[tick, thing], quaternions[tick + 1, thing]
-    spin = rotation_vectors(now, later) / observation.dt
-    arm = point - observation.of(centres)[thing, tick]
-    return observation.of(velocities)[thing, tick] + cross(spin, arm)
 
 
 def _lighter_mass(observation: Observation, touch: Touch) -> float:
