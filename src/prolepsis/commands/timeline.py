@@ -43,9 +43,17 @@ def run(given: argparse.Namespace) -> int:
 def rows(timeline: Timeline) -> list[tuple[str, str, str, str, str]]:
     """Return a heading and a row for each fact."""
     from prolepsis.terms.terms import format_value
+    from prolepsis.terms.ticks import ticks_of
 
+    decimals = ticks_of(timeline.dt).decimals
     facts = [
-        (f"{fact.start:.3f}", f"{fact.end:.3f}", fact.kind, format_value(fact.term), evidence(fact.evidence))
+        (
+            f"{fact.start:.{decimals}f}",
+            f"{fact.end:.{decimals}f}",
+            fact.kind,
+            format_value(fact.term),
+            evidence(fact.evidence),
+        )
         for fact in timeline.facts
     ]
     return [("start[s]", "end[s]", "kind", "what", "evidence"), *facts]

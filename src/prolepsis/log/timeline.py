@@ -1,7 +1,7 @@
 """A run in symbols: which fluents held and which events occurred, over which right-open intervals.
 
 Instances are maximal: one fluent or event that goes on over successive ticks is one fact, so the pair of
-term and interval names it.
+term and interval names it. Times are instants of ticks, each always the same float (``terms/ticks.py``).
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from typing import Any, Literal, cast
 from prolepsis.log.domain import Domain
 from prolepsis.terms.errors import InputError, brief
 from prolepsis.terms.terms import Term, Value
+from prolepsis.terms.ticks import Ticks, ticks_of
 
 Kind = Literal["fluent", "event"]
 Argument = str | int | float
@@ -137,11 +138,10 @@ class Timeline:
 
 
 def make_timeline(facts: Iterable[Fact], *, dt: float, duration: float, domain: Domain | None = None) -> Timeline:
-    """Return the timeline of ``facts``: sorted, and maximal.
+    """Return the timeline of ``facts``: sorted, maximal, and at the instants of ticks that are nearest to their times.
 
-    Stretches of the same fact that overlap, or are less than half a tick apart, become one. Its evidence
-    keeps, of a number given by several, the greatest, and of a name, the first. A fact within one tick is
-    made one tick long.
+    Stretches of the same fact that overlap or meet become one. Its evidence keeps, of a number given by several, the
+    greatest, and of a name, the first. A fact within one tick is made one tick long.
 
     Args:
         facts: The facts, in any order.
@@ -157,10 +157,12 @@ def make_timeline(facts: Iterable[Fact], *, dt: float, duration: float, domain: 
     facts = tuple(facts)
     for number, fact in enumerate(facts, start=1):
         _refuse_no_fact(fact, number)
-    ordered = sorted((_at_least_a_tick(fact, dt) for fact in facts), key=lambda f: (_identity(f), f.start, f.end))
-    maximal = (whole for _, same in groupby(ordered, key=_identity) for whole in _merge(same, dt / 2))
+    ticks = ticks_of(dt)
+    ordered = sorted((_at_ticks(fact, ticks) for fact in facts), key=lambda f: (_identity(f), f.start, f.end))
+    maximal = (whole for _, same in groupby(ordered, key=_identity) for whole in _merge(same))
     by_time = sorted(maximal, key=lambda f: (f.start, f.end, *_identity(f)))
-    return Timeline(facts=tuple(by_time), dt=dt, duration=duration, domain=domain or Domain())
+    whole = ticks.snapped(duration) if _is_number(duration) and duration >= dt else duration
+    return Timeline(facts=tuple(by_time), dt=dt, duration=whole, domain=domain or Domain())
 
 
 def _identity(fact: Fact) -> tuple[str, str, tuple[tuple[bool, Any], ...]]:
@@ -168,20 +170,20 @@ def _identity(fact: Fact) -> tuple[str, str, tuple[tuple[bool, Any], ...]]:
     return fact.kind, fact.type, tuple((isinstance(a, str), a) for a in fact.args)
 
 
-def _at_least_a_tick(fact: Fact, dt: float) -> Fact:
+def _at_ticks(fact: Fact, ticks: Ticks) -> Fact:
     if not (math.isfinite(fact.start) and math.isfinite(fact.end)) or fact.end < fact.start:
         raise InputError(f"fact {fact.term}: cannot hold over {fact.start}-{fact.end}; the end must follow the start")
-    if fact.end > fact.start:
-        return fact
-    tick = round(fact.start / dt)
-    return replace(fact, end=(tick + 1) * dt if tick * dt == fact.start else fact.start + dt)
+    start, end = ticks.snapped(fact.start), ticks.snapped(fact.end)
+    if end <= start:
+        end = ticks.time(ticks.number(start) + 1) if ticks.counts(start) else math.nextafter(start, math.inf)
+    return fact if (start, end) == (fact.start, fact.end) else replace(fact, start=start, end=end)
 
 
-def _merge(stretches: Iterable[Fact], gap: float) -> Iterable[Fact]:
+def _merge(stretches: Iterable[Fact]) -> Iterable[Fact]:
     """Yield the maximal facts of one term from its stretches in order of start."""
     whole: Fact | None = None
     for stretch in stretches:
-        if whole is None or stretch.start > whole.end + gap:
+        if whole is None or stretch.start > whole.end:
             if whole is not None:
                 yield whole
             whole = stretch
