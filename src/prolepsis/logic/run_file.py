@@ -8,6 +8,7 @@ from pathlib import Path
 
 from prolepsis.log.timeline import Argument, Fact, Timeline
 from prolepsis.terms.terms import format_atom, format_value
+from prolepsis.terms.ticks import ticks_of
 
 _atom = lru_cache(maxsize=65536)(format_atom)
 
@@ -15,7 +16,8 @@ _atom = lru_cache(maxsize=65536)(format_atom)
 def write_run(timeline: Timeline, file: Path) -> None:
     """Write the facts and the domain knowledge of ``timeline`` to ``file``."""
     with file.open("w", encoding="utf-8") as out:
-        out.write(f"tick({format_value(float(timeline.dt))}).\n")
+        ticks = ticks_of(timeline.dt)
+        out.write(f"tick({format_value(ticks.numerator)},{ticks.denominator}).\n")
         out.writelines(_type_rows(timeline))
         out.writelines(_domain_rows(timeline))
         out.write("".join(_fact_rows(timeline.facts)))

@@ -27,8 +27,10 @@
           ]).
 :- use_module(library(error)).
 :- use_module(library(aggregate)).
+:- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(chronicles).
+:- use_module(ticks).
 
 :- meta_predicate with_run(+, 0), add_chronicles(+, +, 4).
 :- dynamic known_run/2.
@@ -40,7 +42,7 @@ table(proof/3).
 table(span/2).
 table(type/2).
 table(wide/1).
-table(tick/1).
+table(tick/2).
 table(instance/2).
 table(part/2).
 table(value/3).
@@ -172,7 +174,8 @@ table_clause(Module, Table, Head) :-
 foldl_chronicles([], _, _, _, Id, Id).
 foldl_chronicles([Name/Arity|Names], Source, Finder, Module, Id0, Id) :-
     functor(Event, Name, Arity),
-    call(Finder, Event, ( Source:chronicle(Event, S-E0), E is E0 ), occurrence(S, E, Event), Found),
+    call(Finder, Event, ( Source:chronicle(Event, S-E0), E is E0 ), occurrence(S, E, Event), Found0),
+    maplist(at_ticks, Found0, Found),
     sort(Found, Distinct),
     (   Distinct == []
     ->  Id1 = Id0
@@ -181,11 +184,12 @@ foldl_chronicles([Name/Arity|Names], Source, Finder, Module, Id0, Id) :-
     ),
     foldl_chronicles(Names, Source, Finder, Module, Id1, Id).
 
+at_ticks(occurrence(S0, E0, Event), occurrence(S, E, Event)) :-
+    snapped_ends(S0, E0, S, E).
+
 assert_occurrences([], _, Id, Id).
-assert_occurrences([occurrence(S, E0, Event)|More], Module, Id0, Id) :-
+assert_occurrences([occurrence(S, E, Event)|More], Module, Id0, Id) :-
     Id1 is Id0+1,
-    Module:tick(Tick),
-    E is max(E0, S+Tick),
     flat(Event, Type, First, Second),
     assertz(Module:event(Type, First, Second, Event, S, E, Id1)),
     assert_occurrences(More, Module, Id1, Id).

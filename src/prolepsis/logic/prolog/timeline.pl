@@ -19,11 +19,12 @@
             in/2,                       % ?Run, :Goal
             matching/5,                 % +Kind, ?Term, ?Interval, ?Type, ?Object
             args_of/3,                  % ?Term, ?Interval, ?Arguments
-            interval/1                  % ?Interval
+            interval/3                  % ?Interval, -Start, -End
           ]).
 :- use_module(library(error)).
 :- use_module(library(lists)).
 :- use_module(runs).
+:- use_module(ticks).
 
 :- meta_predicate in(?, 0).
 
@@ -57,7 +58,8 @@ matching(Kind, Term, Time, Type, Object) :-
     current_run(Run),
     found(Time, Kind, Term, Type, Object, Run).
 
-found(Time, Kind, Term, Type, Object, Run), number(Time) =>
+found(Instant, Kind, Term, Type, Object, Run), number(Instant) =>
+    snapped(Run, Instant, Time),
     (   narrowed(Term, Type, Object, Kind, Run, Start, End, _),
         Start =< Time,
         Time < End
@@ -70,13 +72,9 @@ found(Time, Kind, Term, _, _, Run), var(Time), nonvar(Term) =>
     row(Kind, Term, Start, End, _, Run).
 found(Time, Kind, Term, Type, Object, Run) =>
     Time = Start-End,
-    exact(Start, S),
-    exact(End, E),
+    snapped(Run, Start, S),
+    snapped(Run, End, E),
     narrowed(Term, Type, Object, Kind, Run, S, E, _).
-
-% Times are floats; a query may say 2 for 2.0.
-exact(Time, Exact), integer(Time) => Exact is float(Time).
-exact(Time, Exact) => Exact = Time.
 
 narrowed(Term, Type, Object, Kind, Run, S, E, Id), var(Term), atom(Object) =>
     ids_with(Object, Kind, Run, Ids),
@@ -232,12 +230,20 @@ levels(Term, Time, Run, Levels) :-
 
 instance(Term, Time, Run, Id) :-
     member(Kind, [fluent, event]),
-    at(Time, Start, End),
-    row(Kind, Term, Start, End, Id, Run),
-    ( number(Time) -> Start =< Time, Time < End ; Time = Start-End ).
+    row_at(Time, Kind, Term, Id, Run).
 
-at(Time, _, _), number(Time) => true.
-at(Time, Start, End) => Time = S-E, exact(S, Start), exact(E, End).
+%   row_at(?Time, +Kind, ?Term, ?Id, +Run): Term is a fact over the interval Time, or one that lasts at that instant.
+
+row_at(Instant, Kind, Term, Id, Run), number(Instant) =>
+    snapped(Run, Instant, Time),
+    row(Kind, Term, Start, End, Id, Run),
+    Start =< Time,
+    Time < End.
+row_at(Time, Kind, Term, Id, Run) =>
+    Time = Start-End,
+    snapped(Run, Start, S),
+    snapped(Run, End, E),
+    row(Kind, Term, S, E, Id, Run).
 
 %!  objOf(?Term, ?Object:atom) is nondet.
 %
@@ -267,9 +273,7 @@ evidence(Term, Time, Name, Value) :-
     (   var(Term)
     ->  Run:proof(Id, Name, Value),
         member(Kind, [fluent, event]),
-        at(Time, Start, End),
-        row(Kind, Term, Start, End, Id, Run),
-        ( number(Time) -> Start =< Time, Time < End ; true )
+        row_at(Time, Kind, Term, Id, Run)
     ;   instance(Term, Time, Run, Id),
         Run:proof(Id, Name, Value)
     ).
@@ -280,8 +284,10 @@ evidence(Term, Time, Name, Value) :-
 
 fact(Name, Id, Type, Arguments, Start, End) :-
     known_run(Name, Run),
+    snapped(Run, Start, S),
+    snapped(Run, End, E),
     member(Kind, [fluent, event]),
-    table_row(Kind, Run, Type, _, _, Term, Start, End, Id),
+    table_row(Kind, Run, Type, _, _, Term, S, E, Id),
     plain_args(Term, Arguments).
 
 %!  in(?Run, :Goal) is nondet.
@@ -291,21 +297,21 @@ fact(Name, Id, Type, Arguments, Start, End) :-
 in(Run, Goal) :-
     with_run(Run, Goal).
 
-%!  interval(?Interval) is nondet.
+%!  interval(?Interval, -Start, -End) is nondet.
 %
-%   True if Interval is a ground, non-empty interval, or one of the timeline's, each once.
+%   True if Interval is a ground, non-empty interval, or one of the timeline's, each once; from the tick at Start to
+%   that at End.
 
-interval(Interval), ground(Interval) =>
+interval(Interval, Start, End), ground(Interval) =>
     (   Interval = S-E, number(S), number(E), S < E
-    ->  true
+    ->  snapped_ends(S, E, Start, End)
     ;   throw(error(type_error(interval, Interval), _))
     ).
-interval(Interval) =>
+interval(Interval, Start, End) =>
     (   Interval = S-E
     ->  current_run(Run),
-        exact(S, Start),
-        exact(E, End),
-        Run:span(Start, End),
-        S-E = Start-End
+        snapped(Run, S, Start),
+        snapped(Run, E, End),
+        Run:span(Start, End)
     ;   throw(error(type_error(interval, Interval), _))
     ).
