@@ -9,7 +9,7 @@ import pytest
 
 from prolepsis.cli import main
 from prolepsis.fluents import fact_types
-from prolepsis.log.fact_types import arguments_of
+from prolepsis.log.fact_types import SYMMETRIC, arguments_of
 from prolepsis.log.timeline import Fact
 from prolepsis.programs import ACTIONS
 from prolepsis.terms.reader import parse_term
@@ -61,3 +61,8 @@ def test_arguments_of_a_fact_have_names() -> None:
     fact = Fact(kind="event", type="grasping", args=("hand1", "egg1", 5), start=0.0, end=1.0)
     assert arguments_of(fact) == {"hand": "hand1", "object": "egg1", "force": 5}
     assert arguments_of(Fact(kind="event", type="stirring", args=("hand1",), start=0.0, end=1.0)) == {}
+
+
+def test_what_is_symmetric_is_declared_of_two_things_named_alike() -> None:
+    for name in SYMMETRIC:
+        assert [argument.rstrip("12") for argument in fact_types()[name].arguments] == ["o", "o"]

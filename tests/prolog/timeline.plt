@@ -70,6 +70,30 @@ test(by_value, A == [closingGripper(g)-(0.5-1.0)]) :- found(E-T, evidence(E, T, 
 
 :- end_tests(evidence).
 
+:- begin_tests(symmetric).
+
+contacts([ fluent(contacts(egg1, table1), 0.0, 1.0), fluent(contacts(g, egg1), 0.5, 2.0), proof(force, 3.0),
+           fluent(contacts(egg1, bowl1), 0.75, 1.0), fluent(supports(table1, egg1), 0.0, 1.0) ]).
+
+touching(Template, Goal, Answers) :-
+    contacts(Rows),
+    answers(Rows, Template, Goal, Answers).
+
+test(either_order_in_time, A == [table1-(0.0-1.0), g-(0.5-2.0), bowl1-(0.75-1.0)]) :-
+    touching(X-T, holds(contacts(egg1, X), T), A).
+test(either_order_from_behind, A == [table1, g, bowl1]) :- touching(X, holds(contacts(X, egg1), _), A).
+test(both_given, A == [0.5-2.0]) :- touching(T, holds(contacts(egg1, g), T), A).
+test(at_an_instant, A == [g]) :- touching(X, holds(contacts(egg1, X), 1.5), A).
+test(over_an_interval, A == [g]) :- touching(X, holds(contacts(egg1, X), 0.5-2), A).
+test(evidence, A == [3.0]) :- touching(V, evidence(contacts(egg1, g), _, force, V), A).
+test(each_once_as_stored, A == [contacts(egg1, table1), contacts(g, egg1), contacts(egg1, bowl1)]) :-
+    touching(contacts(X, Y), holds(contacts(X, Y), _), A).
+test(each_once_as_stored_by_its_object, A == [contacts(egg1, table1), contacts(g, egg1), contacts(egg1, bowl1)]) :-
+    touching(F, ( holds(F, _), fluentT(F, contacts), objOf(F, egg1) ), A).
+test(not_of_other_types, A == []) :- touching(T, holds(supports(egg1, table1), T), A).
+
+:- end_tests(symmetric).
+
 :- begin_tests(runs).
 
 test(facts_as_stored, A == [2-[g, egg1]]) :- found(Id-Args, fact(test, Id, attached, Args, 1.0, 3.0), A).

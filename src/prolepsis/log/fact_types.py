@@ -29,6 +29,8 @@ class FactType:
     """Name of the action whose event it is, if it is one."""
 
 
+SYMMETRIC = frozenset({"contacts", "colliding"})
+"""Types of which both things are alike: a goal finds them with the two in either order."""
 FLUENTS: dict[str, FactType] = {}
 """Conditions that are found in a log, by name."""
 EVENTS: dict[str, FactType] = {}

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from pathlib import Path
 
+from prolepsis.log.fact_types import SYMMETRIC
 from prolepsis.log.timeline import Argument, Fact, Timeline
 from prolepsis.terms.terms import format_atom, format_value
 from prolepsis.terms.ticks import ticks_of
@@ -18,6 +19,7 @@ def write_run(timeline: Timeline, file: Path) -> None:
     with file.open("w", encoding="utf-8") as out:
         ticks = ticks_of(timeline.dt)
         out.write(f"tick({format_value(ticks.numerator)},{ticks.denominator}).\n")
+        out.writelines(f"symmetric({_atom(type_)}).\n" for type_ in sorted(SYMMETRIC))
         out.writelines(_type_rows(timeline))
         out.writelines(_domain_rows(timeline))
         out.write("".join(_fact_rows(timeline.facts)))

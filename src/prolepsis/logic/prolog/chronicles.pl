@@ -171,15 +171,12 @@ noticeable(0.02).
 hold(Hand, Object, Start, End, LetGo) :-
     holds(attached(Hand, Object), Start-End),
     \+ evidence(attached(Hand, Object), Start-End, by, joint),
-    (   touching(Hand, Object, TouchStart-TouchEnd),
+    (   holds(contacts(Hand, Object), TouchStart-TouchEnd),
         TouchStart =< End,
         TouchEnd > End
     ->  LetGo = TouchEnd
     ;   LetGo = End
     ).
-
-touching(A, B, T) :- holds(contacts(A, B), T).
-touching(A, B, T) :- holds(contacts(B, A), T).
 
 %   kept(+Hand, +Object, +Start, +End): Hand held Object before Start, and did not let go until End.
 

@@ -7,6 +7,7 @@
         span(Start, End)            each distinct interval once, by start and end
         type(Type, Kind)            the types that occur
         wide(Type)                  those with more than two arguments
+        symmetric(Type)             those whose two arguments are alike
         instance/2, part/2, value/3, relation/1       domain knowledge
 
     First and Second repeat the first two arguments of Term ([] when there are fewer), so that the
@@ -43,6 +44,7 @@ table(span/2).
 table(type/2).
 table(wide/1).
 table(tick/2).
+table(symmetric/1).
 table(instance/2).
 table(part/2).
 table(value/3).
@@ -225,14 +227,33 @@ with_run(Run, Goal) :-
 
 %!  row(+Kind, ?Term, ?Start, ?End, ?Id, +Module) is nondet.
 %
-%   True if Term is a fact of Kind over Start-End, in the order of the timeline.
+%   True if Term is a fact of Kind over Start-End, in the order of the timeline. Of a symmetric type the two arguments
+%   may stand in either order, once one of them is known; else each fact comes once, as it is stored.
 
-row(Kind, Term, Start, End, Id, Module) :-
-    (   var(Term)
-    ->  true
-    ;   flat(Term, Type, First, Second)
-    ),
+row(Kind, Term, Start, End, Id, Module), var(Term) =>
+    table_row(Kind, Module, _, _, _, Term, Start, End, Id).
+row(Kind, Term, Start, End, Id, Module), swapped(Term, Module, Swapped) =>
+    findall(at(Start, End, Id, Term),
+            (   stored(Kind, Term, Start, End, Id, Module)
+            ;   stored(Kind, Swapped, Start, End, Id, Module)
+            ),
+            Found0),
+    sort(Found0, Found),
+    member(at(Start, End, Id, Term), Found).
+row(Kind, Term, Start, End, Id, Module) =>
+    stored(Kind, Term, Start, End, Id, Module).
+
+stored(Kind, Term, Start, End, Id, Module) :-
+    flat(Term, Type, First, Second),
     table_row(Kind, Module, Type, First, Second, Term, Start, End, Id).
+
+swapped(Term, Module, Swapped) :-
+    compound(Term),
+    compound_name_arguments(Term, Type, [A, B]),
+    ( nonvar(A) ; nonvar(B) ),
+    !,
+    Module:symmetric(Type),
+    compound_name_arguments(Swapped, Type, [B, A]).
 
 table_row(fluent, Module, Type, First, Second, Term, Start, End, Id) :-
     Module:fluent(Type, First, Second, Term, Start, End, Id).
