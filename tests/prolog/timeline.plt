@@ -3,8 +3,7 @@
 :- use_module('../../src/prolepsis/logic/prolog/allen').
 :- use_module('../../src/prolepsis/logic/prolog/runs').
 
-rows([ relation(on(egg1, table1)),
-       event(closingGripper(g), 0.5, 1.0), proof(level, force7), proof(force, 12.5),
+rows([ event(closingGripper(g), 0.5, 1.0), proof(level, force7), proof(force, 12.5),
        fluent(attached(g, egg1), 1.0, 3.0),
        event(raining, 1.5, 2.5),
        event(closingGripper(g), 2.0, 2.5), proof(level, force9),
@@ -21,8 +20,6 @@ test(over_its_interval, A == [1.0-3.0]) :- found(T, holds(attached(g, egg1), T),
 test(at_its_first_instant) :- found(x, holds(attached(g, egg1), 1.0), [x]).
 test(not_at_its_last, A == []) :- found(x, holds(attached(g, egg1), 3.0), A).
 test(whole_numbers_are_times_too, A == [x]) :- found(x, holds(attached(_, _), 1-3), A).
-test(asserted_at_the_start, A == [on(egg1, table1)]) :- found(F, holds(F, 0), A).
-test(asserted_only_then, A == []) :- found(x, holds(on(egg1, table1), 0.5), A).
 test(events_do_not_hold, A == []) :- found(x, holds(raining, _), A).
 test(by_half_an_interval, A == [attached(g, egg1)]) :- found(F, holds(F, 1.0-_), A).
 test(in_the_order_of_the_timeline, A == [attached, between, filled]) :-
@@ -44,7 +41,6 @@ test(is_the_name, A == [attached]) :- found(T, fluentT(attached(g, egg1), T), A)
 test(in_the_paper_s_spelling, A == [closingGripper(g)]) :- found(E, eventT(E, 'ClosingGripper'), A).
 test(with_underscores, A == [x]) :- found(x, eventT(closingGripper(g), closing_gripper), A).
 test(of_fluents_only, A == []) :- found(x, fluent(raining, _), A).
-test(of_what_is_asserted, A == [on]) :- found(T, fluentT(on(egg1, table1), T), A).
 test(of_a_number, A == []) :- found(T, eventT(3, T), A).
 
 :- end_tests(types).

@@ -16,6 +16,6 @@ class Domain:
     values: tuple[tuple[str, str, float | str], ...] = ()
     """(individual, property, value), quantities in SI units."""
     relations: tuple[tuple[str, str, str], ...] = ()
-    """(relation, subject, object): asserted relations, which hold at 0.0."""
+    """(relation, subject, object): what the situation asserts, which holds from 0.0 on (``log/asserted.py``)."""
     unchecked: str = ""
     """Why it was not decided whether this contradicts itself; empty if it does not."""

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from pathlib import Path
 
+from prolepsis.log.asserted import with_asserted
 from prolepsis.log.fact_types import SYMMETRIC
 from prolepsis.log.timeline import Argument, Fact, Timeline
 from prolepsis.terms.terms import format_atom, format_value
@@ -20,17 +21,18 @@ def write_run(timeline: Timeline, file: Path) -> None:
         ticks = ticks_of(timeline.dt)
         out.write(f"tick({format_value(ticks.numerator)},{ticks.denominator}).\n")
         out.writelines(f"symmetric({_atom(type_)}).\n" for type_ in sorted(SYMMETRIC))
-        out.writelines(_type_rows(timeline))
+        facts = with_asserted(timeline) if timeline.domain.relations else timeline.facts
+        out.writelines(_type_rows(facts))
         out.writelines(_domain_rows(timeline))
-        out.write("".join(_fact_rows(timeline.facts)))
+        out.write("".join(_fact_rows(facts)))
 
 
 def _text(value: Argument) -> str:
     return _atom(value) if isinstance(value, str) else format_value(value)
 
 
-def _type_rows(timeline: Timeline) -> Iterable[str]:
-    for type_, kind, arity in sorted({(fact.type, fact.kind, len(fact.args)) for fact in timeline.facts}):
+def _type_rows(facts: Iterable[Fact]) -> Iterable[str]:
+    for type_, kind, arity in sorted({(fact.type, fact.kind, len(fact.args)) for fact in facts}):
         yield f"type({_atom(type_)},{kind},{arity}).\n"
 
 
@@ -61,5 +63,3 @@ def _domain_rows(timeline: Timeline) -> Iterable[str]:
         yield f"part({_atom(whole)},{_atom(part)}).\n"
     for individual, name, value in domain.values:
         yield f"value({_atom(individual)},{_atom(name)},{_text(value)}).\n"
-    for relation, subject, object_ in domain.relations:
-        yield f"relation({_atom(relation)}({_atom(subject)},{_atom(object_)})).\n"

@@ -8,7 +8,7 @@
         type(Type, Kind)            the types that occur
         wide(Type)                  those with more than two arguments
         symmetric(Type)             those whose two arguments are alike
-        instance/2, part/2, value/3, relation/1       domain knowledge
+        instance/2, part/2, value/3                   domain knowledge
 
     First and Second repeat the first two arguments of Term ([] when there are fewer), so that the
     just-in-time index finds them. When a run is loaded, its facts become static.
@@ -48,7 +48,6 @@ table(symmetric/1).
 table(instance/2).
 table(part/2).
 table(value/3).
-table(relation/1).
 
 %!  load_run(+Run:atom, +File) is det.
 %

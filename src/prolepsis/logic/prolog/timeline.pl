@@ -31,7 +31,7 @@
 %!  holds(?Fluent, ?Interval) is nondet.
 %
 %   True if Fluent holds over Interval, or at the instant Interval if that is a number. What the
-%   situation asserts holds at 0.0.
+%   situation asserts is a fluent, too, which ends when the log shows otherwise.
 
 holds(Fluent, Time) :-
     matching(fluent, Fluent, Time, _, _).
@@ -60,13 +60,9 @@ matching(Kind, Term, Time, Type, Object) :-
 
 found(Instant, Kind, Term, Type, Object, Run), number(Instant) =>
     snapped(Run, Instant, Time),
-    (   narrowed(Term, Type, Object, Kind, Run, Start, End, _),
-        Start =< Time,
-        Time < End
-    ;   Kind == fluent,
-        Time =:= 0,
-        Run:relation(Term)
-    ).
+    narrowed(Term, Type, Object, Kind, Run, Start, End, _),
+    Start =< Time,
+    Time < End.
 found(Time, Kind, Term, _, _, Run), var(Time), nonvar(Term) =>
     Time = Start-End,
     row(Kind, Term, Start, End, _, Run).
@@ -132,16 +128,10 @@ typed(Kind, Term, Type), var(Term) =>
 typed(Kind, Term, Type), callable(Term) =>
     current_run(Run),
     functor(Term, Name, _),
-    once(known_type(Kind, Name, Run)),
+    once(Run:type(Name, Kind)),
     type_of(Term, Type).
 typed(_, _, _) =>
     fail.
-
-known_type(Kind, Name, Run) :-
-    Run:type(Name, Kind).
-known_type(fluent, Name, Run) :-
-    Run:relation(Relation),
-    functor(Relation, Name, _).
 
 distinct_terms(Kind, Run, Type, Terms) :-
     findall(Term, narrowed(Term, Type, _, Kind, Run, _, _, _), All),

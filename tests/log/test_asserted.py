@@ -1,0 +1,57 @@
+"""What a situation asserts holds from the start until the log shows otherwise, and is one fact with what shows it."""
+
+from __future__ import annotations
+
+import pytest
+
+from prolepsis.log.domain import Domain
+from prolepsis.log.timeline import Fact, Timeline, make_timeline
+
+TABLE = Fact(kind="fluent", type="supports", args=("table1", "egg1"), start=0.0, end=1.0)
+AGAIN = Fact(kind="fluent", type="supports", args=("table1", "egg1"), start=2.0, end=3.0)
+FLOOR = Fact(kind="fluent", type="supports", args=("floor", "egg1"), start=0.6, end=3.0)
+FALL = Fact(kind="event", type="falling", args=("egg1",), start=0.4, end=0.6)
+INSIDE = Fact(kind="fluent", type="contains", args=("cup1", "liq1"), start=0.0, end=1.5, evidence={"fill": 0.5})
+ELSEWHERE = Fact(kind="fluent", type="contains", args=("cup2", "liq1"), start=1.2, end=3.0)
+ON, IN, WET = ("on", "egg1", "table1"), ("contains", "cup1", "liq1"), ("wetWith", "hand1", "liq1")
+
+
+def timeline(relation: tuple[str, str, str], *facts: Fact) -> Timeline:
+    return make_timeline(facts, dt=0.001, duration=3.0, domain=Domain(relations=(relation,)))
+
+
+@pytest.mark.parametrize(
+    ("relation", "facts", "end"),
+    [
+        pytest.param(ON, (TABLE,), 1.0, id="as long as it is seen"),
+        pytest.param(ON, (TABLE, AGAIN), 1.0, id="not again after it had ended"),
+        pytest.param(ON, (), 3.0, id="to the end when nothing is seen"),
+        pytest.param(ON, (FALL, FLOOR), 0.4, id="until a fall"),
+        pytest.param(ON, (FLOOR,), 0.6, id="until something else bears it"),
+        pytest.param(ON, (FALL, AGAIN), 0.4, id="until a fall although it comes back"),
+        pytest.param(IN, (INSIDE, ELSEWHERE), 1.5, id="with the fluent of its own name"),
+        pytest.param(IN, (ELSEWHERE,), 1.2, id="until it is elsewhere"),
+        pytest.param(WET, (FALL, FLOOR), 3.0, id="of what no fluent shows"),
+    ],
+)
+def test_it_ends_when_the_log_shows_otherwise(
+    relation: tuple[str, str, str], facts: tuple[Fact, ...], end: float
+) -> None:
+    asserted = timeline(relation, *facts)
+    term = f"{relation[0]}({relation[1]}, {relation[2]})"
+    assert asserted.ask(f"holds({term}, T), T = S-E") == asserted.ask(f"T = 0.0-{end}, T = S-E")
+    assert asserted.ask(f"aggregate_all(count, holds({term}, 0.0), N)") == [{"N": 1}]
+    assert asserted.ask(f"holds({term}, {end - 0.001})")
+    assert not asserted.ask(f"holds({term}, {end})")
+
+
+def test_it_is_found_as_any_fluent_is() -> None:
+    asked = timeline(ON, TABLE)
+    assert asked.ask("holds(F, T), fluentT(F, 'On'), objOf(F, egg1), evidence(F, T, by, Who)")[0]["Who"] == "situation"
+    assert asked.ask("holds(supports(X, Y), T), holds(on(Y, X), T)") == asked.ask("holds(supports(X, Y), T)")
+
+
+def test_what_the_fluent_measured_is_kept() -> None:
+    assert timeline(IN, INSIDE).ask("evidence(contains(cup1, liq1), T, Name, V)") == timeline(IN).ask(
+        "T = 0.0-1.5, Name = fill, V = 0.5"
+    )
