@@ -20,7 +20,7 @@ answers(Rows, Template, Goal, Answers) :-
     sort(Types0, Types),
     setup_call_cleanup(
         tmp_file_stream(utf8, File, Out),
-        ( forall(( member(Row, [tick(1, 1000), symmetric(contacts)|Types]) ; member(Row, Rows) ), format(Out, '~q.~n', [Row])),
+        ( forall(( member(Row, [tick(1, 1000), lasts(1000.0), symmetric(contacts)|Types]) ; member(Row, Rows) ), format(Out, '~q.~n', [Row])),
           close(Out),
           load_run(test, File),
           finish_run(test),

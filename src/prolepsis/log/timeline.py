@@ -23,6 +23,8 @@ Evidence = Mapping[str, "float | str"]
 _GREATEST, _LONGEST = 1e300, 1e15
 """What is greater is no number of a fact, and no time [s]."""
 _KINDS = ("fluent", "event")
+ENDS, WITH_LOG = "ends", "with the log"
+"""Evidence of an event that still went on when the log ended: its end is not its own."""
 
 
 def _no_evidence() -> dict[str, float | str]:
@@ -71,9 +73,8 @@ class Timeline:
         Raises:
             InputError: If a fact is none, or the tick or the duration is no length of time.
         """
-        for what, time in (("dt", self.dt), ("duration", self.duration)):
-            if not _is_number(time) or not 0 < time < _LONGEST:
-                raise InputError(f"timeline, {what}: a time above 0 s, not {brief(time)}")
+        _refuse_no_time("dt", self.dt)
+        _refuse_no_time("duration", self.duration)
         for number, fact in enumerate(self.facts, start=1):
             _refuse_no_fact(fact, number)
 
@@ -141,7 +142,8 @@ def make_timeline(facts: Iterable[Fact], *, dt: float, duration: float, domain: 
     """Return the timeline of ``facts``: sorted, maximal, and at the instants of ticks that are nearest to their times.
 
     Stretches of the same fact that overlap or meet become one. Its evidence keeps, of a number given by several, the
-    greatest, and of a name, the first. A fact within one tick is made one tick long.
+    greatest, and of a name, the first. A fact within one tick is made one tick long. Of an event that goes on to the
+    end of the log, evidence tells that it ends with it.
 
     Args:
         facts: The facts, in any order.
@@ -152,17 +154,18 @@ def make_timeline(facts: Iterable[Fact], *, dt: float, duration: float, domain: 
     Raises:
         InputError: If a time is not finite, or a fact ends before it starts.
     """
-    if not _is_number(dt) or not 0 < dt < _LONGEST:
-        raise InputError(f"timeline, dt: a time above 0 s, not {brief(dt)}")
+    _refuse_no_time("dt", dt)
+    _refuse_no_time("duration", duration)
     facts = tuple(facts)
     for number, fact in enumerate(facts, start=1):
         _refuse_no_fact(fact, number)
     ticks = ticks_of(dt)
     ordered = sorted((_at_ticks(fact, ticks) for fact in facts), key=lambda f: (_identity(f), f.start, f.end))
     maximal = (whole for _, same in groupby(ordered, key=_identity) for whole in _merge(same))
-    by_time = sorted(maximal, key=lambda f: (f.start, f.end, *_identity(f)))
-    whole = ticks.snapped(duration) if _is_number(duration) and duration >= dt else duration
-    return Timeline(facts=tuple(by_time), dt=dt, duration=whole, domain=domain or Domain())
+    last = ticks.snapped(duration) if duration >= dt else duration
+    told = (_with_its_end(fact, last) for fact in maximal)
+    by_time = sorted(told, key=lambda f: (f.start, f.end, *_identity(f)))
+    return Timeline(facts=tuple(by_time), dt=dt, duration=last, domain=domain or Domain())
 
 
 def _identity(fact: Fact) -> tuple[str, str, tuple[tuple[bool, Any], ...]]:
@@ -203,6 +206,14 @@ def _merged_evidence(first: Evidence, second: Evidence) -> dict[str, float | str
     return merged
 
 
+def _with_its_end(fact: Fact, last: float) -> Fact:
+    is_open = fact.kind == "event" and fact.end >= last
+    if is_open == (fact.evidence.get(ENDS) == WITH_LOG):
+        return fact
+    evidence = {name: value for name, value in fact.evidence.items() if (name, value) != (ENDS, WITH_LOG)}
+    return replace(fact, evidence={**evidence, ENDS: WITH_LOG} if is_open else evidence)
+
+
 def _read_fact(row: Any, number: int) -> Fact:
     """Return the fact that a row of plain data says.
 
@@ -227,6 +238,11 @@ def _read_fact(row: Any, number: int) -> Fact:
         end=float(cast(float, end)),
         evidence=dict(cast("Mapping[str, float | str]", evidence)),
     )
+
+
+def _refuse_no_time(what: str, time: Any) -> None:
+    if not _is_number(time) or not 0 < time < _LONGEST:
+        raise InputError(f"timeline, {what}: a time above 0 s, not {brief(time)}")
 
 
 def _refuse_no_fact(fact: Any, number: int) -> None:

@@ -21,6 +21,7 @@ def write_run(timeline: Timeline, file: Path) -> None:
         ticks = ticks_of(timeline.dt)
         out.write(f"tick({format_value(ticks.numerator)},{ticks.denominator}).\n")
         out.writelines(f"symmetric({_atom(type_)}).\n" for type_ in sorted(SYMMETRIC))
+        out.write(f"lasts({format_value(float(timeline.duration))}).\n")
         facts = with_asserted(timeline) if timeline.domain.relations else timeline.facts
         out.writelines(_type_rows(facts))
         out.writelines(_domain_rows(timeline))

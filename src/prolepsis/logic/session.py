@@ -16,6 +16,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from prolepsis.log.timeline import Timeline
+from prolepsis.logic.open_ends import open_note
 from prolepsis.logic.process import ProcessLost, PrologProcess
 from prolepsis.logic.refusals import refusal, shown
 from prolepsis.logic.rules import read_rules, rule_refusal
@@ -158,13 +159,18 @@ class Session:
                 raise GoalLimitError(f"time limit of {time_limit:g} s reached: {shown(goal)}") from None
             # Perhaps by no fault of this goal: another one was stopped, or somebody killed the process.
             reply = self._reply_apart(timeline, goal, limit, time_limit)
-        status, _, body = reply.partition("\n")
+        first, _, body = reply.partition("\n")
+        status, *open_ends = first.split("\t")
         if status not in ("ok", "cut"):
             raise refusal(status, body, goal, time_limit, timeline)
         if status == "cut":
             what = "a value is too large or too deep to be told whole; ... stands for the rest"
             warnings.warn(f"{what}: {shown(goal)}", Note, 3)
-        return _answers(body, time.monotonic() + time_limit + GRACE, goal)
+        answers = _answers(body, time.monotonic() + time_limit + GRACE, goal)
+        note = open_note(answers, open_ends, goal)
+        if note:
+            warnings.warn(note, Note, 3)
+        return answers
 
     def _reply(self, timeline: Timeline, goal: str, limit: int | None, time_limit: float) -> str:
         process, name = self._load(timeline)

@@ -1,7 +1,7 @@
 /*  Answers: a goal in text is read, checked, put in order, run within its limits, and answered in text.
 
-    A reply is lines: first "ok" ("cut" where a value was too large or deep to be told whole), or what went wrong; then
-    one line for each distinct answer, with the values of the variables separated by tabs, as terms that can be read
+    A reply is lines: first "ok" ("cut" where a value was too large or deep to be told whole) and, after tabs, what still
+    went on when the log ended and bears on the goal; or what went wrong; then one line for each distinct answer, with the values of the variables separated by tabs, as terms that can be read
     back.
 */
 
@@ -17,6 +17,7 @@
 :- use_module(library(solution_sequences)).
 :- use_module(runs).
 :- use_module(guard).
+:- use_module(open_ends).
 :- use_module(order).
 :- use_module(query).
 
@@ -32,13 +33,15 @@ ask(Run, Text, Limit, Seconds, Reply) :-
 answers(Run, Text, Limit, Seconds, Lines) :-
     read_goal(Text, Goal, Bindings),
     pairs(Bindings, Names, Values),
-    nb_setval(prolepsis_cut, "ok\n"),
+    nb_setval(prolepsis_cut, "ok"),
     nb_setval(prolepsis_told, 0),
     call_with_time_limit(Seconds, found(Run, Goal, Values, Limit, Answers)),
     nb_getval(prolepsis_cut, Status),
+    open_ends(Run, Goal, Ends),
+    atomic_list_concat([Status|Ends], '\t', First),
     atomic_list_concat(Names, '\t', Header),
     atomic_list_concat([Header|Answers], '\n', Body),
-    Lines = [Status, Body].
+    Lines = [First, "\n", Body].
 
 found(Run, Goal0, Values, Limit, Answers) :-
     check_goal(Goal0),
@@ -149,7 +152,7 @@ cut_list([_|_], Left0, Left, _, Cut) => Cut = [Rest], Left = Left0, cut_here(Res
 cut_list(Rest, Left0, Left, Depth, Cut) => cut_term(Rest, Left0, Left, Depth, Cut).
 
 cut_here('...') :-
-    nb_setval(prolepsis_cut, "cut\n").
+    nb_setval(prolepsis_cut, "cut").
 
 too_long(Term) :-
     most_characters(Most),

@@ -27,6 +27,7 @@
 :- use_module(timeline).
 :- use_module(allen).
 :- use_module(knowledge).
+:- use_module(open_ends).
 :- use_module(query).
 
 :- multifile
@@ -46,6 +47,7 @@ term_expansion(trust(Module), Clauses) :-
 trust(timeline).
 trust(allen).
 trust(knowledge).
+trust(open_ends).
 
 sandbox:safe_meta_predicate(timeline:in/2).
 
@@ -295,6 +297,7 @@ may(fluent(?, ?)).
 may(fluentT(?, ?)).
 may(event(?, ?)).
 may(eventT(?, ?)).
+may(ongoing(?)).
 may(argsOf(?, ?)).
 may(objOf(?, ?)).
 may(evidence(?, ?, ?, ?)).

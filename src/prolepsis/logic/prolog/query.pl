@@ -11,3 +11,4 @@
 :- use_module(timeline).
 :- use_module(allen).
 :- use_module(knowledge).
+:- use_module(open_ends, [ongoing/1]).

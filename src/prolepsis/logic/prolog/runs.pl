@@ -44,6 +44,7 @@ table(span/2).
 table(type/2).
 table(wide/1).
 table(tick/2).
+table(lasts/1).
 table(symmetric/1).
 table(instance/2).
 table(part/2).
@@ -193,6 +194,11 @@ assert_occurrences([occurrence(S, E, Event)|More], Module, Id0, Id) :-
     Id1 is Id0+1,
     flat(Event, Type, First, Second),
     assertz(Module:event(Type, First, Second, Event, S, E, Id1)),
+    (   Module:lasts(Last),
+        E >= Last
+    ->  assertz(Module:proof(Id1, ends, 'with the log'))
+    ;   true
+    ),
     assert_occurrences(More, Module, Id1, Id).
 
 %!  drop_run(+Run) is det.

@@ -19,6 +19,7 @@
             in/2,                       % ?Run, :Goal
             matching/5,                 % +Kind, ?Term, ?Interval, ?Type, ?Object
             args_of/3,                  % ?Term, ?Interval, ?Arguments
+            same_type/2,                % +Type, +Type
             interval/3                  % ?Interval, -Start, -End
           ]).
 :- use_module(library(error)).
@@ -144,6 +145,10 @@ type_of(Term, Type) :-
     ;   atom(Type),
         same_type(Type, Name)
     ).
+
+%!  same_type(+Type, +Other) is semidet.
+%
+%   True of two spellings of one type.
 
 same_type(Name, Name) :- !.
 same_type(Type, Name) :-
