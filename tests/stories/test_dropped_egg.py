@@ -64,3 +64,9 @@ def test_what_is_known_can_be_asked_beside_what_happens(drop: Projection) -> Non
     answers = drop.ask("occurs(breaking(X), _), instance_of(X, 'Fragile'), has_part(X, P), instance_of(P, 'EggYolk')")
     assert [(answer["X"], answer["P"]) for answer in answers] == [("egg1", "yolk1")]
     assert drop.ask("holds(on(egg1,hand1), 0.0)")
+
+
+def test_what_a_shard_is_and_of_what_can_be_asked(drop: Projection) -> None:
+    lying = drop.ask("holds(supports(floor, X), T), has_part(eggshell1, X), instance_of(X, 'EggShellPiece')")
+    assert len(lying) > 1
+    assert drop.ask("has_part(hand1, X), instance_of(X, 'Part')")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from prolepsis.fluents.agents.actions import action_facts
 from prolepsis.fluents.observation import observe
 from prolepsis.fluents.registry import GROUNDINGS, check_declared
-from prolepsis.log.domain import Domain
+from prolepsis.log.domain import Domain, with_things
 from prolepsis.log.log import Log
 from prolepsis.log.timeline import Fact, Timeline, make_timeline
 from prolepsis.system.threads import one_thread
@@ -32,13 +32,4 @@ def recognize(log: Log, *, domain: Domain | None = None) -> Timeline:
     for kind, name, count in dict.fromkeys((fact.kind, fact.type, len(fact.args)) for fact in facts):
         check_declared(kind, name, count)
     facts += action_facts(observation)
-    return make_timeline(facts, dt=log.dt, duration=log.duration, domain=domain or domain_of(log))
-
-
-def domain_of(log: Log) -> Domain:
-    """Return what the things of a log say of themselves: kinds, roles, parts and quantities."""
-    instances = sorted({(t.name, kind) for t in log.things for kind in {t.kind, *t.roles}})
-    values = sorted((t.name, name, value) for t in log.things for name, value in t.quantities.items())
-    masses = sorted((t.name, "mass", t.mass) for t in log.things if t.mass > 0 and "mass" not in t.quantities)
-    parts = sorted((t.whole, t.name) for t in log.things if t.whole is not None)
-    return Domain(instances=tuple(instances), parts=tuple(parts), values=tuple(sorted([*values, *masses])))
+    return make_timeline(facts, dt=log.dt, duration=log.duration, domain=domain or with_things(Domain(), log.things))

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from prolepsis.log.things import Thing
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -19,3 +22,19 @@ class Domain:
     """(relation, subject, object): what the situation asserts, which holds from 0.0 on (``log/asserted.py``)."""
     unchecked: str = ""
     """Why it was not decided whether this contradicts itself; empty if it does not."""
+
+
+def with_things(domain: Domain, things: Iterable[Thing]) -> Domain:
+    """Return ``domain`` with what things say of themselves of which it says nothing: shards, links of a robot."""
+    known = {name for name, _ in domain.instances}
+    new = [thing for thing in things if thing.name not in known]
+    instances = sorted({(t.name, kind) for t in new for kind in {t.kind, *t.roles}})
+    values = sorted((t.name, name, value) for t in new for name, value in t.quantities.items())
+    masses = sorted((t.name, "mass", t.mass) for t in new if t.mass > 0 and "mass" not in t.quantities)
+    parts = sorted((t.whole, t.name) for t in new if t.whole is not None)
+    return replace(
+        domain,
+        instances=(*domain.instances, *instances),
+        parts=(*domain.parts, *(part for part in parts if part not in domain.parts)),
+        values=(*domain.values, *sorted([*values, *masses])),
+    )

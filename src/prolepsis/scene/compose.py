@@ -13,7 +13,7 @@ from prolepsis.geometry.rotations import inverse, product, rotated, turned
 from prolepsis.geometry.shape import IDENTITY, Shape, triple
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.knowledge.situation import MOST_INDIVIDUALS
-from prolepsis.log.domain import Domain
+from prolepsis.log.domain import Domain, with_things
 from prolepsis.log.happenings import HappeningType
 from prolepsis.log.things import FIXED, FREE, Thing
 from prolepsis.scene.coherence import refuse_nonsense
@@ -101,7 +101,7 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
     _refuse_dropped(kb, {thing.name for thing in found})
     return Scene(
         things=found,
-        domain=_with_volumes(kb.domain(), [thing for name in flowing for thing in things[name]]),
+        domain=with_things(_with_volumes(kb.domain(), [thing for name in flowing for thing in things[name]]), found),
         pools=pools,
         parts_known=tuple(part for name in names if name in made for part in made[name].parts),
         kinds=tuple(kinds),
