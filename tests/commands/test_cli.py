@@ -119,6 +119,38 @@ def test_timeline_prints_a_table(saved: Path, capfd: pytest.CaptureFixture[str])
     assert any("breaking(egg1)" in line for line in lines)
 
 
+@pytest.mark.parametrize(
+    ("options", "types"),
+    [
+        (["--type", "Breaking", "--type", "broken"], {"breaking", "broken"}),
+        (["--about", "yolk1"], {"contains", "moving", "falling", "spilled", "spilling", "supports"}),
+        (["--about", "egg1", "--type", "falling", "--from", "0.3", "--to", "0.4"], {"falling"}),
+        (["--about", "egg1", "--type", "falling", "--to", "0.1"], set[str]()),
+        (["--type", "buckled"], set[str]()),
+    ],
+)
+def test_timeline_selects(options: list[str], types: set[str], saved: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    assert main(["timeline", str(saved), "--json", *options]) == 0
+    found = {json.loads(line)["type"] for line in capfd.readouterr().out.splitlines()}
+    assert found <= types and bool(found) == bool(types)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--about", "eg1"], "--about: no thing named 'eg1'; did you mean 'egg1'?; known: egg1"),
+        (["--type", "brocken"], "--type: no type named 'brocken'; did you mean 'broken'?"),
+        (["--from", "2", "--to", "1"], "--from 2 --to 1: the first must be less than the second"),
+        (["--from", "nan"], "--from nan --to inf: the first must be less than the second"),
+    ],
+)
+def test_timeline_refuses_what_selects_nothing(
+    options: list[str], message: str, saved: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["timeline", str(saved), *options]) == 2
+    assert message in capfd.readouterr().err
+
+
 @pytest.mark.parametrize("section", ["objects", "actions", "conditions", "fluents", "events", "channels", "examples"])
 def test_list_prints_a_line_each(section: str, capfd: pytest.CaptureFixture[str]) -> None:
     assert main(["list", section]) == 0

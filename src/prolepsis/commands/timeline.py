@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping
+import math
+from collections.abc import Sequence
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from prolepsis.commands.output import add_command, json_line, table, warn_unchecked
+from prolepsis.terms.errors import InputError, UnknownNameError
 
 if TYPE_CHECKING:
+    from prolepsis.log.folding import Told
     from prolepsis.log.timeline import Timeline
 
 EXAMPLE = """\
   prolepsis timeline out/drop
+  prolepsis timeline out/drop --about egg1 --type breaking --type broken
+  prolepsis timeline out/drop --from 0.6 --to 0.7 --all
   prolepsis timeline out/drop --json
+Facts about many like things are told as one: contacts([12 parts of eggshell1],floor). What is alike is read off
+what the things are: parts of one whole, and things of the same classes and mass.
 """
 
 
@@ -22,43 +30,103 @@ def add_to(commands: Any) -> None:
     parser = add_command(commands, "timeline", "print what held and occurred in a saved projection", EXAMPLE, run)
     parser.add_argument("folder", metavar="DIR", help="folder that `prolepsis project --out` saved")
     parser.add_argument(
-        "--json", action="store_true", help="print one JSON object a fact: kind, type, args, start, end, evidence"
+        "--all", action="store_true", help="print each fact by itself, also those about many like things"
+    )
+    parser.add_argument(
+        "--about",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="only facts about this thing or a part of it; repeated: about all of them",
+    )
+    parser.add_argument(
+        "--type", action="append", default=[], metavar="TYPE", help="only facts of this type; repeated: of any of them"
+    )
+    parser.add_argument(
+        "--from",
+        dest="begin",
+        type=float,
+        default=-math.inf,
+        metavar="S",
+        help="only facts that end after this time [s]",
+    )
+    parser.add_argument(
+        "--to", dest="end", type=float, default=math.inf, metavar="S", help="only facts that start before this time [s]"
+    )
+    parser.add_argument(
+        "--json",
+        action="store_true",
+        help="print one JSON object a fact, never folded: kind, type, args, start, end, evidence",
     )
 
 
 def run(given: argparse.Namespace) -> int:
     """Print the facts."""
+    from prolepsis.log.folding import fold, tell
     from prolepsis.log.saved import read_timeline
 
-    timeline = read_timeline(given.folder)
+    if not given.begin < given.end:
+        raise InputError(f"--from {given.begin:g} --to {given.end:g}: the first must be less than the second")
+    timeline = selected(read_timeline(given.folder), given.about, given.type, given.begin, given.end)
     warn_unchecked(timeline.domain.unchecked)
     if given.json:
         for row in timeline.to_json():
             print(json_line(row))
     else:
-        print(table(rows(timeline)))
+        told = [tell(fact) for fact in timeline.facts] if given.all else fold(timeline.facts, timeline.domain)
+        print(table(rows(told, timeline.dt)))
     return 0
 
 
-def rows(timeline: Timeline) -> list[tuple[str, str, str, str, str]]:
-    """Return a heading and a row for each fact."""
-    from prolepsis.terms.terms import format_value
+def selected(timeline: Timeline, names: Sequence[str], types: Sequence[str], begin: float, end: float) -> Timeline:
+    """Return the timeline with only the facts about all of the things, of any of the types, within the times [s].
+
+    Raises:
+        UnknownNameError: If a name or a type occurs nowhere.
+    """
+    from dataclasses import replace
+
+    from prolepsis.log.folding import about
+
+    known = {name for name, _ in timeline.domain.instances}
+    known |= {each for fact in timeline.facts for each in fact.args if isinstance(each, str)}
+    for name in names:
+        if name not in known:
+            raise UnknownNameError.of("thing", name, known, "--about")
+    wanted = {_type(timeline, each) for each in types}
+    things = [about(timeline, name) for name in names]
+    facts = (
+        fact
+        for fact in timeline.facts
+        if (not wanted or fact.type in wanted)
+        and all(any(each in within for each in fact.args) for within in things)
+        and begin < fact.end
+        and fact.start < end
+    )
+    return replace(timeline, facts=tuple(facts))
+
+
+def _type(timeline: Timeline, given: str) -> str:
+    name = given[:1].lower() + given[1:]
+    known = {fact.type for fact in timeline.facts}
+    if name not in known:
+        # Takes a moment, and is needed only to tell what did not happen from what cannot.
+        import_module("prolepsis.programs")
+        from prolepsis.fluents import fact_types
+
+        known |= set(fact_types())
+        if name not in known:
+            raise UnknownNameError.of("type", given, known, "--type")
+    return name
+
+
+def rows(told: Sequence[Told], dt: float) -> list[tuple[str, str, str, str, str]]:
+    """Return a heading and a row for each fact, times with as many decimals as ticks of ``dt`` [s] have."""
     from prolepsis.terms.ticks import ticks_of
 
-    decimals = ticks_of(timeline.dt).decimals
+    decimals = ticks_of(dt).decimals
     facts = [
-        (
-            f"{fact.start:.{decimals}f}",
-            f"{fact.end:.{decimals}f}",
-            fact.kind,
-            format_value(fact.term),
-            evidence(fact.evidence),
-        )
-        for fact in timeline.facts
+        (f"{each.start:.{decimals}f}", f"{each.end:.{decimals}f}", each.kind, each.what, each.evidence)
+        for each in told
     ]
     return [("start[s]", "end[s]", "kind", "what", "evidence"), *facts]
-
-
-def evidence(found: Mapping[str, float | str]) -> str:
-    """Return evidence in one line, numbers with four digits."""
-    return ", ".join(f"{name}={value if isinstance(value, str) else f'{value:.4g}'}" for name, value in found.items())
