@@ -213,6 +213,25 @@ def test_answers_are_values(session: Session) -> None:
     assert session.ask(egg, "X = 'a\\tb\\nc'") == [{"X": "a\tb\nc"}]
 
 
+@pytest.mark.parametrize(
+    ("goal", "variables"),
+    [
+        ("aggregate_all(count, holds(F, T), N)", {"N"}),
+        ("holds(broken(X), T), aggregate_all(max(E), holds(F, S-E), Last)", {"X", "T", "Last"}),
+        ("holds(broken(X), T), aggregate_all(count, holds(F, T), N)", {"X", "T", "N"}),
+        ("findall(F, holds(F, T), Fs)", {"Fs"}),
+        ("findall(F, holds(F, T), Fs, More)", {"Fs", "More"}),
+        ("forall(holds(broken(X), T), true)", set[str]()),
+        ("\\+ holds(broken(X), 0.0), (Y = a ; once(Z = b))", {"Y", "Z"}),
+        ("setof(F, S^E^holds(F, S-E), Fs)", {"Fs"}),
+        ("bagof(F, S^holds(F, S-E), Fs)", {"Fs", "E"}),
+    ],
+)
+def test_an_answer_gives_the_variables_that_the_goal_binds(session: Session, goal: str, variables: set[str]) -> None:
+    answers = session.ask(timeline(), goal)
+    assert answers and all(set(answer) == variables for answer in answers)
+
+
 def test_the_level_is_that_of_the_instance(session: Session) -> None:
     egg = timeline()
     goal = "occurs(E, S-_), eventT(E, 'ClosingGripper'), argsOf(E, [g, Level])"

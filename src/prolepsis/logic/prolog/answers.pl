@@ -19,6 +19,7 @@
 :- use_module(guard).
 :- use_module(open_ends).
 :- use_module(order).
+:- use_module(outer).
 :- use_module(query).
 
 %!  ask(+Run, +Text, +Limit, +Seconds, -Reply:string) is det.
@@ -32,7 +33,8 @@ ask(Run, Text, Limit, Seconds, Reply) :-
 
 answers(Run, Text, Limit, Seconds, Lines) :-
     read_goal(Text, Goal, Bindings),
-    pairs(Bindings, Names, Values),
+    outer_bindings(Goal, Bindings, Outer),
+    pairs(Outer, Names, Values),
     nb_setval(prolepsis_cut, "ok"),
     nb_setval(prolepsis_told, 0),
     call_with_time_limit(Seconds, found(Run, Goal, Values, Limit, Answers)),
