@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, cast
@@ -101,12 +101,16 @@ class Projection:
         own = scenario.robot if isinstance(scenario.robot, OwnRobot) else None
         models = () if own is None else (scenario.path.parent / own.file,)
         taken = {SCENARIO, MANIFEST, *(file.name for file in path.iterdir())}
-        names = list(_copy_names((*scenario.situation, *models), taken).items())
-        for name, source in names:
-            shutil.copyfile(source, path / name)
+        sources = (*scenario.sources, *models)
+        names = _copy_names([each if isinstance(each, Path) else each.path for each in sources], taken)
+        for name, source in zip(names, sources, strict=True):
+            if isinstance(source, Path):
+                shutil.copyfile(source, path / name)
+            else:
+                write_text(path / name, source.text)
         if own is not None:
-            scenario = replace(scenario, robot=replace(own, file=names[-1][0], folder=None))
-        situation = [name for name, _ in names[: len(scenario.situation)]]
+            scenario = replace(scenario, robot=replace(own, file=names[-1], folder=None))
+        situation = names[: len(scenario.sources)]
         write_json(path / SCENARIO, {**_scenario_row(scenario, situation), "drawn": dict(self.drawn)})
 
 
@@ -204,12 +208,12 @@ def read_scenario(scenario: Scenario | str | Path, settings: Mapping[str, float 
     return read.with_settings(settings)
 
 
-def _copy_names(sources: tuple[Path, ...], taken: Collection[str]) -> dict[str, Path]:
+def _copy_names(sources: Sequence[Path], taken: Collection[str]) -> list[str]:
     """Return for each file the name of its copy, distinct from each other and from those that are ``taken``."""
-    names: dict[str, Path] = {}
+    names: list[str] = []
     for i, source in enumerate(sources):
         name = _as_text(source.name)
-        names[name if name not in (*names, *taken) else f"{i}_{name}"] = source
+        names.append(name if name not in (*names, *taken) else f"{i}_{name}")
     return names
 
 

@@ -6,13 +6,15 @@ A scenario file is TOML; it is checked here, at the edge, and is a frozen value 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import cast
 
 from prolepsis.knowledge import KnowledgeBase
 from prolepsis.knowledge.situation import MOST_INDIVIDUALS
-from prolepsis.knowledge.sources import Source
+from prolepsis.knowledge.sources import NAMESPACE, Source
 from prolepsis.scenario.file import DEFAULT_PARTICLES, ParameterTable, read_file, read_robot
 from prolepsis.scenario.own_robot import OwnRobot
 from prolepsis.system.text_files import is_file, path_of
@@ -34,6 +36,11 @@ ROBOTS: Mapping[str, Path | None] = {
 """Robots that a scenario may name, with what each adds to the situation: a hand is declared there by who wants one."""
 
 
+_PREFIX = f"@prefix : <{NAMESPACE}> ."
+_DECLARES = re.compile(r"(?i)(@prefix|\bprefix)\s+:\s*<")
+"""Whether a text of Turtle says what ``:`` stands for."""
+
+
 @dataclass(frozen=True, slots=True)
 class Parameter:
     """What a variable of the plan stands for."""
@@ -48,12 +55,13 @@ class Parameter:
 class Scenario:
     """Everything that one run is told. The same scenario gives the same bytes."""
 
-    path: Path
+    path: Path = Path("scenario")
     """The scenario file; for one made in Python, where its relative paths start."""
-    situation: tuple[Path, ...]
-    """Turtle files."""
+    situation: Path | str | Source | Sequence[Path | str | Source]
+    """Turtle files, or Turtle itself: a path is a file, a text is Turtle, in which ``:`` need not be declared. One or
+    several; kept as a tuple of paths and of texts with their names."""
     plan: Value
-    """What the robot does, with variables."""
+    """What the robot does, with variables. A text is read as a plan in a scenario file is, and kept as a term."""
     parameters: Mapping[str, Parameter] = field(default_factory=dict[str, Parameter])
     """Value of each variable of the plan."""
     knowledge: Mapping[str, float | str] = field(default_factory=dict[str, "float | str"])
@@ -73,7 +81,10 @@ class Scenario:
     """What is logged of a thing instead of the usual, ``{"egg1": ("load", "speed")}``."""
 
     def __post_init__(self) -> None:
-        """Refuse a scenario that cannot be run."""
+        """Read what is given as text, and refuse a scenario that cannot be run."""
+        object.__setattr__(self, "situation", _situation(self.situation, self.path))
+        if isinstance(self.plan, str):
+            object.__setattr__(self, "plan", _plan(self.plan, self.path))
         if self.duration is not None and not 0.0 < self.duration <= LONGEST:
             raise ScenarioError(
                 f"{self.path}: duration must be a finite number of seconds greater than 0 and at most {LONGEST:,.0f}, "
@@ -109,6 +120,11 @@ class Scenario:
                 f"variables of the plan: {brief_list(used)}"
             )
 
+    @property
+    def sources(self) -> tuple[Path | Source, ...]:
+        """What the situation consists of: files, and texts with their names."""
+        return cast("tuple[Path | Source, ...]", self.situation)
+
     @classmethod
     def load(cls, path: Path | str, settings: Mapping[str, str | float] | None = None) -> Scenario:
         """Return the scenario in the TOML file at ``path``.
@@ -133,7 +149,7 @@ class Scenario:
         scenario = cls(
             path=path,
             situation=situation,
-            plan=_plan(content.plan, path),
+            plan=content.plan,
             parameters={n: _parameter(v, f"{path}: parameter {n}") for n, v in content.parameters.items()},
             knowledge={n: _plain(v) for n, v in content.knowledge.items()},
             robot=read_robot(content.robot, str(path)) if isinstance(content.robot, dict) else content.robot,
@@ -206,7 +222,7 @@ class Scenario:
             UnknownNameError: If a parameter or a knowledge value names nothing that is there.
             KnowledgeError: If a value, or what is drawn, is wrong.
         """
-        base = KnowledgeBase.load(*self._robot_sources(), *self.situation, most=MOST_INDIVIDUALS)
+        base = KnowledgeBase.load(*self._robot_sources(), *self.sources, most=MOST_INDIVIDUALS)
         for name, parameter in self.parameters.items():
             if isinstance(parameter.value, str) and parameter.value not in base.individuals:
                 raise UnknownNameError.of(
@@ -256,6 +272,29 @@ def bind(value: Value, values: Mapping[str, float | str]) -> Value:
     if isinstance(value, tuple):
         return tuple(bind(item, values) for item in value)
     return value
+
+
+def _situation(given: object, path: Path) -> tuple[Path | Source, ...]:
+    """Return the files and texts of a situation, each text with a name that no other has.
+
+    Raises:
+        ScenarioError: If something is neither.
+    """
+    found: list[Path | Source] = []
+    for each in cast("Sequence[object]", given) if isinstance(given, list | tuple) else (given,):
+        if isinstance(each, str):
+            if not any(character.isspace() for character in each.strip()):
+                name = brief(repr(each.strip()))
+                raise ScenarioError(f"{path}: situation: {name} is no Turtle; a file is given as Path({name})")
+            name = "situation.ttl" if not found else f"situation_{len(found) + 1}.ttl"
+            each = Source(path=Path(name), text=each if _DECLARES.search(each) else f"{_PREFIX} {each}")
+        if not isinstance(each, Path | Source):
+            raise ScenarioError(
+                f"{path}: situation: {brief(repr(each))} is none; allowed: a Path of a Turtle file, a text of Turtle, "
+                "or several of them"
+            )
+        found.append(each)
+    return tuple(found)
 
 
 def _plan(text: str, path: Path) -> Value:
