@@ -58,6 +58,10 @@ class Projection:
     drawn: Mapping[str, float | str] = field(default_factory=dict[str, "float | str"])
     """What was drawn before the run, ``{"eggshell1.breakingForce": 29.3}``; as settings it gives the same run again."""
 
+    def __repr__(self) -> str:
+        """Return it in a line, as a prompt shows it."""
+        return f"Projection({self.scenario.path.name}: {self.log}, {self.timeline})"
+
     def ask(self, goal: str, limit: int | None = None) -> list[dict[str, Value]]:
         """Return the answers to a Prolog goal: ``[]`` means no, ``[{}]`` means yes. See ``Timeline.ask``."""
         return self.timeline.ask(goal, limit=limit)

@@ -20,9 +20,10 @@ TOY = ":Toy a owl:Class ; rdfs:subClassOf [ a owl:Class ; owl:unionOf ( :Block :
 """A toy is one of two things: only the reasoner shows that there can be one, and only its answers are kept."""
 SHOW = """
 import hashlib, sys
+from dataclasses import asdict
 from prolepsis.knowledge import KnowledgeBase
 base = KnowledgeBase.load(sys.argv[1])
-print(hashlib.sha256(repr((base.domain(), base.individuals, base.describe("egg1"))).encode()).hexdigest())
+print(hashlib.sha256(repr((asdict(base.domain()), base.individuals, base.describe("egg1"))).encode()).hexdigest())
 """
 
 

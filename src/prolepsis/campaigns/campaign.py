@@ -73,6 +73,10 @@ class Outcomes:
     between: tuple[Row, ...] = ()
     """Further runs between neighbouring levels of different outcome, which narrow the transitions down."""
 
+    def __repr__(self) -> str:
+        """Return it in a line, as a prompt shows it."""
+        return f"Outcomes({len(self.rows)} runs, {sum(row.error is not None for row in self.rows)} of them failed)"
+
     def transitions(self) -> tuple[Transition, ...]:
         """Return where the outcome changes from one force level to the next higher one."""
         ranked = sorted(

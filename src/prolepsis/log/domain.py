@@ -23,6 +23,10 @@ class Domain:
     unchecked: str = ""
     """Why it was not decided whether this contradicts itself; empty if it does not."""
 
+    def __repr__(self) -> str:
+        """Return it in a line, as a prompt shows it."""
+        return f"Domain({len({name for name, _ in self.instances})} individuals)"
+
 
 def with_things(domain: Domain, things: Iterable[Thing]) -> Domain:
     """Return ``domain`` with what things say of themselves of which it says nothing: shards, links of a robot."""

@@ -54,6 +54,10 @@ class Happenings:
     numbers: Mapping[str, FloatArray] = field(default_factory=dict[str, FloatArray])
     """What was measured, each of shape (H,)."""
 
+    def __repr__(self) -> str:
+        """Return it in a line, as a prompt shows it."""
+        return f"Happenings({len(self.tick)} rows)"
+
     def __len__(self) -> int:
         """Return how many there are."""
         return len(self.tick)

@@ -49,6 +49,10 @@ class Contacts:
     peak: FloatArray
     """Greatest normal force of the pair within the tick [N], shape (C,)."""
 
+    def __repr__(self) -> str:
+        """Return it in a line, as a prompt shows it."""
+        return f"Contacts({len(self.tick)} rows)"
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Joints:
@@ -62,6 +66,10 @@ class Joints:
     """First tick, shape (B,)."""
     end: IntArray = field(default_factory=_no_rows)
     """First tick no longer, shape (B,)."""
+
+    def __repr__(self) -> str:
+        """Return it in a line, as a prompt shows it."""
+        return f"Joints({len(self.a)} rows)"
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -78,6 +86,10 @@ class Detachments:
     """Index of the second piece, shape (D,)."""
     force: FloatArray = field(default_factory=lambda: np.zeros(0))
     """Greatest contact force on the thing when the bond gave way [N], shape (D,)."""
+
+    def __repr__(self) -> str:
+        """Return it in a line, as a prompt shows it."""
+        return f"Detachments({len(self.tick)} rows)"
 
     @classmethod
     def of(cls, happenings: Happenings | None) -> Detachments:
@@ -115,6 +127,10 @@ class Particles:
     spacing: float = 0.0
     """Distance of neighbours in the liquid at rest [m]: the cube root of a particle's volume. A particle that lies on a
     wall has its centre half a spacing from it."""
+
+    def __repr__(self) -> str:
+        """Return it in a line, as a prompt shows it."""
+        return f"Particles({len(self.stuff)} in {len(self.tick)} frames)"
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -167,6 +183,10 @@ class Log:
     """What the control program did."""
     gravity: Triple = (0.0, 0.0, -9.81)
     """Gravitational acceleration, world frame [m/s^2]."""
+
+    def __repr__(self) -> str:
+        """Return it in a line, as a prompt shows it."""
+        return f"Log({self.tick_count} ticks of {self.dt:g} s, {len(self.things)} things)"
 
     @property
     def detachments(self) -> Detachments:

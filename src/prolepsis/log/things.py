@@ -61,6 +61,10 @@ class Thing:
     quantities: Mapping[str, float] = field(default_factory=dict[str, float])
     """Named quantities in SI units: friction, breakingForce, ..."""
 
+    def __repr__(self) -> str:
+        """Return it in a line, as a prompt shows it."""
+        return f"Thing({self.name}, {self.kind})"
+
     @property
     def fixed(self) -> bool:
         """Whether it never moves."""

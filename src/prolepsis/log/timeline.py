@@ -48,6 +48,13 @@ class Fact:
     evidence: Evidence = field(default_factory=_no_evidence)
     """Measured numbers (SI units) and names behind the fact: ``{"level": "force7", "force": 12.5}``."""
 
+    def __repr__(self) -> str:
+        """Return it in a line, as a prompt shows it."""
+        # It is also shown where it is refused, with arguments that are none.
+        given: Any = self.args
+        args = ",".join(map(str, cast("tuple[Any, ...]", given))) if isinstance(given, list | tuple) else given
+        return f"Fact({self.kind} {self.type}({args}), {self.start}-{self.end})"
+
     @property
     def term(self) -> Value:
         """The fact as a term, ``contacts(hand1,egg1)``; an atom when there are no arguments."""
@@ -66,6 +73,10 @@ class Timeline:
     """End of the run [s]."""
     domain: Domain = Domain()
     """What queries can read of the individuals."""
+
+    def __repr__(self) -> str:
+        """Return it in a line, as a prompt shows it."""
+        return f"Timeline({len(self.facts)} facts in {self.duration:g} s)"
 
     def __post_init__(self) -> None:
         """Refuse what is no timeline, before it is asked.

@@ -11,7 +11,7 @@ from prolepsis.geometry.shape import FloatArray, Quaternion, Triple
 from prolepsis.log.domain import Domain
 from prolepsis.log.things import Thing
 from prolepsis.scene.robot import Robot, RobotPart
-from prolepsis.terms.errors import UnknownNameError
+from prolepsis.terms.errors import UnknownNameError, brief_list
 
 Part = TypeVar("Part")
 
@@ -28,6 +28,10 @@ class Pool:
     """Distance of neighbours at rest [m]; all pools of a scene have the same."""
     holder: str | None = None
     """Name of the thing that has absorbed it, if any."""
+
+    def __repr__(self) -> str:
+        """Return it in a line, as a prompt shows it."""
+        return f"Pool({self.stuff}, {len(self.position)} particles)"
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -50,6 +54,10 @@ class Scene:
     """Where the paths of files start that a plan names, while it is read."""
     _numbers: Mapping[str, int] = field(init=False, repr=False, compare=False)
     """Position of each thing by its name."""
+
+    def __repr__(self) -> str:
+        """Return it in a line, as a prompt shows it."""
+        return f"Scene({len(self.things)} things: {brief_list(thing.name for thing in self.things)})"
 
     def __post_init__(self) -> None:
         """Number the things."""
