@@ -27,6 +27,13 @@ class FactType:
     """One line that says when it holds."""
     action: str | None = None
     """Name of the action whose event it is, if it is one."""
+    optional: int = 0
+    """How many of the last arguments may be left out."""
+
+    @property
+    def arities(self) -> range:
+        """How many arguments a fact of this type may have."""
+        return range(len(self.arguments) - self.optional, len(self.arguments) + 1)
 
 
 SYMMETRIC = frozenset({"contacts", "colliding"})
@@ -44,11 +51,13 @@ def fact_types() -> Mapping[str, FactType]:
     return dict(sorted({**ACTION_EVENTS, **FLUENTS, **EVENTS}.items()))
 
 
-def declare_action(name: str, arguments: tuple[str, ...]) -> None:
-    """Declare the event that an action is."""
+def declare_action(name: str, arguments: tuple[str, ...], *, optional: int = 0) -> None:
+    """Declare the event that an action is, of which the last arguments may be left out."""
     doc = f"The control program runs the action {name}; the arguments are the action's."
     event = event_of(name)
-    ACTION_EVENTS[event] = FactType(name=event, kind="event", arguments=arguments, doc=doc, action=name)
+    ACTION_EVENTS[event] = FactType(
+        name=event, kind="event", arguments=arguments, doc=doc, action=name, optional=optional
+    )
 
 
 def arguments_of(fact: Fact) -> dict[str, Argument]:

@@ -7,6 +7,7 @@ import re
 
 from prolepsis.log.timeline import Timeline
 from prolepsis.logic.process import STACK_LIMIT
+from prolepsis.logic.unknown_names import unknown_name
 from prolepsis.terms.errors import GoalError, GoalLimitError, brief
 
 PERMITTED = (
@@ -58,6 +59,8 @@ def refusal(status: str, body: str, goal: str, time_limit: float, timeline: Time
         case "predicate":
             name, known = body.split("\n", 1)
             return GoalError(f"unknown predicate {brief(name)}; {_nearest(name, known.split(chr(9)), timeline)}")
+        case "name":
+            return GoalError(unknown_name(body))
         case "relation":
             return GoalError(f"unknown relation {brief(body)!r}; known: {RELATIONS}")
         case "permission":

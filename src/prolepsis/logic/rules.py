@@ -6,6 +6,7 @@ import difflib
 from pathlib import Path
 
 from prolepsis.logic.refusals import PERMITTED
+from prolepsis.logic.unknown_names import unknown_name
 from prolepsis.system.text_files import read_text
 from prolepsis.terms.errors import GoalLimitError, InputError, brief
 
@@ -85,6 +86,8 @@ def _goal(about: str) -> str:
 
 def _failed(chronicle: str, about: str, limit: float) -> InputError:
     reason, _, what = about.partition("\n")
+    if reason == "name":
+        return InputError(f"{chronicle}: {unknown_name(what)}")
     if reason in ("time", "memory"):
         most = f" of {limit:g} s" if reason == "time" else ""
         return GoalLimitError(f"{chronicle}: {reason} limit{most} reached")

@@ -7,7 +7,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from prolepsis.log.asserted import with_asserted
-from prolepsis.log.fact_types import SYMMETRIC
+from prolepsis.log.fact_types import SYMMETRIC, fact_types
 from prolepsis.log.timeline import Argument, Fact, Timeline
 from prolepsis.terms.terms import format_atom, format_value
 from prolepsis.terms.ticks import ticks_of
@@ -24,6 +24,7 @@ def write_run(timeline: Timeline, file: Path) -> None:
         out.write(f"lasts({format_value(float(timeline.duration))}).\n")
         facts = with_asserted(timeline) if timeline.domain.relations else timeline.facts
         out.writelines(_type_rows(facts))
+        out.writelines(_declared_rows())
         out.writelines(_domain_rows(timeline))
         out.write("".join(_fact_rows(facts)))
 
@@ -35,6 +36,13 @@ def _text(value: Argument) -> str:
 def _type_rows(facts: Iterable[Fact]) -> Iterable[str]:
     for type_, kind, arity in sorted({(fact.type, fact.kind, len(fact.args)) for fact in facts}):
         yield f"type({_atom(type_)},{kind},{arity}).\n"
+
+
+def _declared_rows() -> Iterable[str]:
+    """Yield the types that this program has been told of, some by its user: the others are known to Prolog already."""
+    for known in fact_types().values():
+        for arity in known.arities:
+            yield f"declared({known.kind},{_atom(known.name)},{arity}).\n"
 
 
 def _fact_rows(facts: Iterable[Fact]) -> Iterator[str]:

@@ -147,7 +147,8 @@ def action(
         ACTIONS[behave.__name__] = ActionSpec(
             name=behave.__name__, parameters=parameters, doc=doc, behave=behave, check=check, moves=moves
         )
-        declare_action(behave.__name__, tuple(each.name for each in parameters))
+        optional = sum(each.default is not None for each in parameters)
+        declare_action(behave.__name__, tuple(each.name for each in parameters), optional=optional)
         return behave
 
     return register

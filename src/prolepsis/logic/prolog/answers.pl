@@ -17,6 +17,7 @@
 :- use_module(library(solution_sequences)).
 :- use_module(runs).
 :- use_module(guard).
+:- use_module(names).
 :- use_module(open_ends).
 :- use_module(order).
 :- use_module(outer).
@@ -47,6 +48,7 @@ answers(Run, Text, Limit, Seconds, Lines) :-
 
 found(Run, Goal0, Values, Limit, Answers) :-
     check_goal(Goal0),
+    check_names(Goal0),
     order_goal(Goal0, Goal),
     % Nothing that is permitted changes a fact; should it ever, snapshot/1 undoes it.
     snapshot(findall(Answer, limit(Limit, distinct(Answer, answer(Run, Goal, Values, Answer))), Answers)).
@@ -263,6 +265,12 @@ refusal(unknown_predicate(PI), ["predicate\n", Text, "\n", Known]) :-
     findall(Name, ( allowed(N/A), format(atom(Name), '~w/~w', [N, A]) ), Names),
     sort(Names, Sorted),
     atomic_list_concat(Sorted, '\t', Known).
+refusal(unknown_name(Kind, Named), ["name\n", Of, "\n", Text, "\n", Known]) :-
+    ( Kind = type(Of) -> true ; Of = Kind ),
+    short_text(Named, Text),
+    known_names(Kind, Names),
+    findall(Each, ( member(Known0, Names), format(atom(Each), '~q', [Known0]) ), All),
+    atomic_list_concat(All, '\t', Known).
 refusal(unknown_relation(Name), ["relation\n", Text]) :-
     short_text(Name, Text).
 refusal(not_permitted(Goal), [Kind, Text]) :-

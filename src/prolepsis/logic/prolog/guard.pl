@@ -24,9 +24,9 @@
 :- use_module(library(ordsets)).
 :- use_module(library(solution_sequences)).
 :- use_module(library(yall)).
-:- use_module(timeline).
+:- use_module(asking, []).
+:- use_module(timeline, [in/2]).
 :- use_module(allen).
-:- use_module(knowledge).
 :- use_module(open_ends).
 :- use_module(query).
 
@@ -44,9 +44,9 @@ term_expansion(trust(Module), Clauses) :-
               functor(Head, Name, Arity) ),
             Clauses).
 
+trust(asking).
 trust(timeline).
 trust(allen).
-trust(knowledge).
 trust(open_ends).
 
 sandbox:safe_meta_predicate(timeline:in/2).

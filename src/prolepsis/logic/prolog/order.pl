@@ -167,7 +167,7 @@ refined(Goal, Goals, Before, Refined) :-
     type_demanded(Near, Term, Type),
     object_demanded(Near, Term, [Goal|Before], Object),
     !,
-    Refined = timeline:matching(Kind, Term, Interval, Type, Object).
+    Refined = asking:matching(Kind, Term, Interval, Type, Object).
 refined(argsOf(Term, Arguments), _, Before, timeline:args_of(Term, Interval, Arguments)) :-
     var(Term),
     member(Earlier, Before),

@@ -8,7 +8,7 @@
 :- use_module(library(ordsets)).
 :- use_module(library(solution_sequences)).
 :- use_module(library(yall)).
-:- use_module(timeline).
+:- use_module(asking).
+:- use_module(timeline, [in/2]).
 :- use_module(allen).
-:- use_module(knowledge).
 :- use_module(open_ends, [ongoing/1]).

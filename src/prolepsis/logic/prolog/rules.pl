@@ -16,6 +16,7 @@
 :- use_module(answers).
 :- use_module(chronicles).
 :- use_module(guard).
+:- use_module(names).
 :- use_module(query).
 :- use_module(runs).
 
@@ -125,7 +126,8 @@ keep_rules(Number, Rules) :-
            ( parts(Term, Head, Body),
              functor(Head, Name, Arity),
              dynamic(Module:Name/Arity),
-             assertz(Module:(Head :- Body)) )),
+             assertz(Module:(Head :- Body)),
+             ( Head = chronicle(Event, _) -> declare_event(Event) ; true ) )),
     assertz(rules_module(Number, Module)).
 
 %!  add_rules_to_run(+Number, +Run, +Seconds, -Reply:string) is det.
@@ -134,11 +136,21 @@ keep_rules(Number, Rules) :-
 
 add_rules_to_run(Number, Run, Seconds, Reply) :-
     rules_module(Number, Module),
-    catch(( add_chronicles(Run, Module, occurrences(Seconds)),
+    catch(( check_rule_names(Module),
+            add_chronicles(Run, Module, occurrences(Seconds)),
             Lines = ["ok"] ),
           Error,
           failure_at(Error, Lines)),
     atomics_to_string(Lines, Reply).
+
+%   What is named is known of a run only, so it is looked through here, and not when the rules are read.
+
+check_rule_names(Module) :-
+    forall(( current_predicate(Module:Name/Arity),
+             functor(Head, Name, Arity),
+             \+ predicate_property(Module:Head, imported_from(_)),
+             clause(Module:Head, Body) ),
+           catch(check_names(Body), refused(Reason), throw(failed_rule(Head, Reason)))).
 
 %   occurrences(+Seconds, +Event, :Goal, +Template, -Found): what add_chronicles/3 calls.
 
@@ -193,6 +205,14 @@ failure_at(failed(PI, backwards(S, E)), ["backwards\n", Text, "\n", Interval]) :
     short_text(S-E, Interval).
 failure_at(failed(PI, open_answer), ["open\n", Text]) :- !, short_text(PI, Text).
 failure_at(failed(PI, error(instantiation_error, _)), ["open\n", Text]) :- !, short_text(PI, Text).
+failure_at(failed_rule(chronicle(Event, _), Reason), Lines) :-
+    !,
+    functor(Event, Name, Arity),
+    failure_at(failed(Name/Arity, refused(Reason)), Lines).
+failure_at(failed_rule(Head, Reason), Lines) :-
+    !,
+    functor(Head, Name, Arity),
+    failure_at(failed(Name/Arity, refused(Reason)), Lines).
 failure_at(failed(PI, Error), ["failed\n", Text, "\n"|Lines]) :- !, short_text(PI, Text), failure(Error, Lines).
 failure_at(time_limit_exceeded, ["late\n"]) :- !.
 failure_at(Error, ["file\n"|Lines]) :- failure(Error, Lines).

@@ -8,6 +8,7 @@
         type(Type, Kind)            the types that occur
         wide(Type)                  those with more than two arguments
         symmetric(Type)             those whose two arguments are alike
+        declared(Kind, Type, Arity) what else may occur, as far as Python has been told
         instance/2, part/2, value/3                   domain knowledge
 
     First and Second repeat the first two arguments of Term ([] when there are fewer), so that the
@@ -46,6 +47,7 @@ table(wide/1).
 table(tick/2).
 table(lasts/1).
 table(symmetric/1).
+table(declared/3).
 table(instance/2).
 table(part/2).
 table(value/3).

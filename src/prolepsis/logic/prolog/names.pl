@@ -1,0 +1,300 @@
+/*  Names: what a goal names must be known, or the answer "no" would be to a question that nobody meant.
+
+    Known is the vocabulary, what is declared in Python or by a rule of a user's, and whatever occurs in a run of this
+    session or in what is known of its individuals. A goal is looked through before it runs, and what it binds only then
+    is looked up when a predicate finds nothing: what it finds is known.
+*/
+
+:- module(names,
+          [ takes/1,                    % ?Form
+            check_names/1,              % +Goal
+            check_found_nothing/1,      % +Goal
+            known_names/2,              % +Kind, -Names
+            declare_event/1             % +Event
+          ]).
+:- use_module(library(lists)).
+:- use_module(library(apply)).
+:- use_module(chronicles).
+:- use_module(guard).
+:- use_module(runs).
+:- use_module(timeline, []).
+:- use_module(vocabulary).
+
+:- dynamic declared_event/2, declared_name/1.
+
+%!  takes(?Form) is nondet.
+%
+%   What the arguments of the predicates on timelines and individuals must be: ? for any term, else the kind of what is
+%   named; fact is a fluent or an event, and type(Kind) the name of its type in either spelling.
+
+takes(holds(fluent, ?)).
+takes(holds_at(fluent, ?)).
+takes(occurs(event, ?)).
+takes(fluent(fluent, type(fluent))).
+takes(fluentT(fluent, type(fluent))).
+takes(event(event, type(event))).
+takes(eventT(event, type(event))).
+takes(argsOf(fact, ?)).
+takes(objOf(fact, individual)).
+takes(evidence(fact, ?, evidence, ?)).
+takes(fact(run, ?, type(fact), ?, ?, ?)).
+takes(in(run, ?)).
+takes(instance_of(individual, class)).
+takes(has_part(individual, individual)).
+takes(value(individual, property, ?)).
+takes(matching(?, ?, ?, type(fact), individual)).
+
+%!  check_names(+Goal) is det.
+%
+%   Check what Goal, which the guard has let pass, and the goals in it name.
+%
+%   @error refused(unknown_name(Kind, Name))
+
+check_names(Goal), var(Goal) => true.
+check_names(_/Lambda) => check_names(Lambda).
+check_names(Parameters>>Body), is_list(Parameters) => check_names(Body).
+check_names(_^Goal) => check_names(Goal).
+check_names(Goal), callable(Goal) =>
+    functor(Goal, Name, Arity),
+    functor(Form, Name, Arity),
+    (   takes(Form)
+    ->  check_arguments(Arity, Form, Goal)
+    ;   true
+    ),
+    (   functor(Calls, Name, Arity),
+        may(Calls)
+    ->  check_called(Arity, Calls, Goal)
+    ;   true
+    ).
+check_names(_) => true.
+
+check_called(0, _, _) :- !.
+check_called(N, Calls, Goal) :-
+    arg(N, Calls, Kind),
+    arg(N, Goal, Argument),
+    (   Kind == (^)
+    ->  check_names(Argument)
+    ;   \+ integer(Kind)
+    ->  true
+    ;   extended(Argument, Kind, Called)
+    ->  check_names(Called)
+    ;   check_names(Argument)
+    ),
+    Rest is N-1,
+    check_called(Rest, Calls, Goal).
+
+%   A closure is called with Extra more arguments.
+
+extended(Closure, Extra, Called) :-
+    callable(Closure),
+    Extra > 0,
+    Closure \= _/_,
+    Closure \= _>>_,
+    length(More, Extra),
+    Closure =.. Plain,
+    append(Plain, More, All),
+    Called =.. All.
+
+%!  check_found_nothing(+Goal) is failure.
+%
+%   Fail, once what Goal names is sure to be known.
+
+check_found_nothing(Goal) :-
+    functor(Goal, Name, Arity),
+    functor(Form, Name, Arity),
+    takes(Form),
+    check_arguments(Arity, Form, Goal),
+    !,
+    fail.
+
+check_arguments(0, _, _) :- !.
+check_arguments(N, Form, Goal) :-
+    arg(N, Form, Kind),
+    arg(N, Goal, Argument),
+    (   ( Kind == (?) ; var(Argument) )
+    ->  true
+    ;   check_name(Kind, Argument)
+    ),
+    Rest is N-1,
+    check_arguments(Rest, Form, Goal).
+
+check_name(Kind, Term), fact_kind(Kind) =>
+    (   callable(Term),
+        functor(Term, Name, Arity),
+        known_fact(Kind, Name, Arity)
+    ->  check_individuals(Arity, Term)
+    ;   callable(Term)
+    ->  functor(Term, Name, Arity),
+        unknown(Kind, Name/Arity)
+    ;   unknown(Kind, Term)
+    ).
+check_name(Kind, Name) =>
+    (   atom(Name),
+        known(Kind, Name)
+    ->  true
+    ;   unknown(Kind, Name)
+    ).
+
+fact_kind(fluent).
+fact_kind(event).
+fact_kind(fact).
+
+unknown(Kind, Term) :-
+    throw(refused(unknown_name(Kind, Term))).
+
+%   The arguments of a fact are individuals, numbers, or what a rule makes of them.
+
+check_individuals(0, _) :- !.
+check_individuals(N, Term) :-
+    arg(N, Term, Argument),
+    (   ( atom(Argument) ; string(Argument) )
+    ->  check_name(individual, Argument)
+    ;   true
+    ),
+    Rest is N-1,
+    check_individuals(Rest, Term).
+
+%   known_fact(+Kind, +Name, +Arity)
+
+known_fact(Kind, Name, Arity) :-
+    of_kind(Kind, Known),
+    (   fact_type(Name, Arity, Known)
+    ;   declared(Known, Name, Arity)
+    ;   known_run(_, Run),
+        occurring(Run, Known, Name, Arity)
+    ),
+    !.
+
+of_kind(fact, Kind) => ( Kind = fluent ; Kind = event ).
+of_kind(Kind, Known) => Known = Kind.
+
+declared(event, Name, Arity) :-
+    (   declared_event(Name, Arity)
+    ;   chronicle_name(Name, Arity)
+    ).
+declared(Kind, Name, Arity) :-
+    known_run(_, Run),
+    Run:declared(Kind, Name, Arity).
+
+occurring(Run, Kind, Name, Arity) :-
+    Run:type(Name, Kind),
+    table_row(Kind, Run, Name, _, _, Term, _, _, _),
+    functor(Term, Name, Arity).
+
+%   known(+Kind, +Name)
+
+known(type(Kind), Name) :-
+    of_kind(Kind, Known),
+    (   type_name(Known, Name)
+    ;   known_type_spelled(Known, Name)
+    ),
+    !.
+known(individual, Name) :-
+    known_run(_, Run),
+    individual(Run, Name),
+    !.
+known(individual, Name) :-
+    declared_name(Name),
+    !.
+known(class, Name) :-
+    (   class(Name)
+    ;   known_run(_, Run),
+        Run:instance(_, Name)
+    ),
+    !.
+known(property, Name) :-
+    (   property(Name, _)
+    ;   known_run(_, Run),
+        Run:value(_, Name, _)
+    ),
+    !.
+known(evidence, Name) :-
+    (   evidence_unit(Name, _)
+    ;   known_run(_, Run),
+        Run:proof(_, Name, _)
+    ),
+    !.
+known(run, Name) :-
+    known_run(Name, _),
+    !.
+
+type_name(Kind, Name) :- fact_type(Name, _, Kind).
+type_name(Kind, Name) :- known_run(_, Run), Run:type(Name, Kind).
+type_name(Kind, Name) :- declared(Kind, Name, _).
+
+known_type_spelled(Kind, Name) :-
+    type_name(Kind, Known),
+    timeline:same_type(Name, Known).
+
+%   individual(+Run, ?Name)
+
+individual(Run, Name) :- Run:instance(Name, _).
+individual(Run, Name) :- Run:part(_, Name).
+individual(Run, Name) :- Run:part(Name, _).
+individual(Run, Name) :- Run:value(Name, _, _).
+individual(Run, Name) :- table_row(_, Run, _, Name, _, _, _, _, _).
+individual(Run, Name) :- table_row(_, Run, _, _, Name, _, _, _, _).
+individual(Run, Name) :-
+    Run:wide(Type),
+    table_row(_, Run, Type, _, _, Term, _, _, _),
+    compound(Term),
+    arg(_, Term, Name).
+individual(Run, Name) :- Run:proof(_, _, Name).
+
+%!  declare_event(+Event) is det.
+%
+%   Event is what a rule may find; the names in it are known from then on.
+
+declare_event(Event) :-
+    functor(Event, Name, Arity),
+    assertz(declared_event(Name, Arity)),
+    forall(( compound(Event), arg(_, Event, Argument), atom(Argument) ),
+           assertz(declared_name(Argument))).
+
+%!  known_names(+Kind, -Names) is det.
+%
+%   The names of a kind, each once, or for facts Name/Arity, to tell the nearest of them; not more than are soon compared.
+
+known_names(Kind, Names) :-
+    findall(Name, candidate(Kind, Name), All),
+    sort(All, Sorted),
+    most_names(Most),
+    length(Sorted, Count),
+    (   Count =< Most
+    ->  Names = Sorted
+    ;   length(Names, Most),
+        append(Names, _, Sorted)
+    ).
+
+most_names(20_000).
+
+candidate(Kind, Candidate), fact_kind(Kind) =>
+    Candidate = Name/Arity-Known,
+    member(Known, [fluent, event]),
+    (   fact_type(Name, Arity, Known)
+    ;   declared(Known, Name, Arity)
+    ;   known_run(_, Run),
+        Run:type(Name, Known),
+        once(( table_row(Known, Run, Name, _, _, Term, _, _, _), functor(Term, _, Arity) ))
+    ).
+candidate(type(Kind), Name) =>
+    of_kind(Kind, Known),
+    (   fact_type(Name, _, Known)
+    ;   declared(Known, Name, _)
+    ;   known_run(_, Run),
+        Run:type(Name, Known)
+    ).
+candidate(individual, Name) =>
+    (   declared_name(Name)
+    ;   known_run(_, Run),
+        individual(Run, Name),
+        atom(Name)
+    ).
+candidate(class, Name) =>
+    ( class(Name) ; known_run(_, Run), Run:instance(_, Name) ).
+candidate(property, Name) =>
+    ( property(Name, _) ; known_run(_, Run), Run:value(_, Name, _) ).
+candidate(evidence, Name) =>
+    ( evidence_unit(Name, _) ; known_run(_, Run), Run:proof(_, Name, _) ).
+candidate(run, Name) =>
+    known_run(Name, _).

@@ -1,0 +1,84 @@
+"""What is said of a name in a goal that nothing has: what it should have named, and the nearest that are known."""
+
+from __future__ import annotations
+
+import difflib
+import re
+
+from prolepsis.terms.errors import brief, brief_list
+
+PREDICATES = {"fluent": "holds", "event": "occurs"}
+WHAT = {
+    "fact": "fluent or event",
+    "evidence": "evidence",
+    "individual": "individual",
+    "class": "class",
+    "property": "property",
+    "run": "run",
+}
+_FACT = re.compile(r"(.*)/(\d+)-(fluent|event)")
+
+
+def unknown_name(body: str) -> str:
+    """Return what is wrong with a name.
+
+    Args:
+        body: What Prolog tells: the kind, the name as it stands in the goal, and the names of that kind, in lines. Of
+            fluents and events these are ``name/arity``, and of the known ones ``name/arity-kind``.
+    """
+    kind, name, known = (body.split("\n") + ["", ""])[:3]
+    names = known.split("\t") if known else []
+    facts = [(found[1], int(found[2]), found[3]) for found in map(_FACT.fullmatch, names) if found]
+    what = WHAT.get(kind, kind)
+    if facts:
+        return _unknown_fact(kind, name, facts)
+    near = nearest(name, names)
+    told = f"; did you mean {_either(near)}?" if near else f"; known: {brief_list(names)}" if names else ""
+    return f"no {what} named {brief(name)} in the vocabulary, the domain or the timelines{told}"
+
+
+def _unknown_fact(kind: str, name: str, facts: list[tuple[str, int, str]]) -> str:
+    plain, _, arity = name.rpartition("/")
+    what = WHAT.get(kind, kind)
+    for other, count, its in facts:
+        if other == plain and str(count) == arity:
+            return f"{plain} is {_a(its)}, no {what}; ask {PREDICATES[its]}({pattern(plain, count)}, T)"
+    same = [(count, its) for other, count, its in facts if other == plain and kind in (its, "fact")]
+    if same:
+        told = " or ".join(pattern(plain, count) for count, _ in same)
+        return f"no {what} {brief(name)}; it is written {told}"
+    ranked = nearest(plain, [other for other, _, its in facts if kind in (its, "fact")])
+    if ranked:
+        shown = [pattern(other, count) for each in ranked for other, count, _ in facts if other == each][:3]
+        return f"no {what} {brief(name)}; did you mean {_either(shown)}?"
+    for each in nearest(plain, [other for other, _, _ in facts]):
+        count, its = next((count, its) for other, count, its in facts if other == each)
+        return f"no {what} {brief(name)}; did you mean the {its} {pattern(each, count)}?"
+    known = sorted({other for other, _, its in facts if kind in (its, "fact")})
+    return f"no {what} {brief(name)}; known: {brief_list(known)}"
+
+
+def pattern(name: str, arity: int) -> str:
+    """Return how a fact is written: ``contacts(X, Y)``."""
+    variables = ("X", "Y", "Z", "U", "V", "W", *(f"X{number}" for number in range(7, arity + 1)))
+    return f"{name}({', '.join(variables[:arity])})" if arity else name
+
+
+def nearest(name: str, known: list[str]) -> list[str]:
+    """Return up to three names like ``name``, the nearest first; quotes and capitals count for nothing."""
+    plain: dict[str, str] = {}
+    for each in known:
+        plain.setdefault(_plain(each), each)
+    return [plain[each] for each in difflib.get_close_matches(_plain(name), list(plain), n=3, cutoff=0.7)]
+
+
+def _plain(name: str) -> str:
+    return name.strip("'\"").replace("_", "").casefold()
+
+
+def _a(kind: str) -> str:
+    return f"an {kind}" if kind[0] in "aeiou" else f"a {kind}"
+
+
+def _either(names: list[str]) -> str:
+    return " or ".join(brief(name) for name in names)

@@ -1,0 +1,215 @@
+"""A name that nothing has is an error with the nearest names, and no confident "no"; a name that is known is none."""
+
+from __future__ import annotations
+
+import ast
+import importlib.util
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from prolepsis.fluents.evidence import RANGES
+from prolepsis.log.domain import Domain
+from prolepsis.log.evidence_names import EVIDENCE_UNITS
+from prolepsis.log.timeline import Fact, Timeline, make_timeline
+from prolepsis.logic.process import PROLOG_FILES
+from prolepsis.logic.session import Session
+from prolepsis.terms.errors import GoalError, InputError
+
+ROOT = Path(__file__).parents[2]
+
+
+def timeline() -> Timeline:
+    facts = [
+        Fact(kind="fluent", type="broken", args=("egg1",), start=0.5, end=2.0, evidence={"force": 44.0}),
+        Fact(kind="event", type="grasping", args=("hand1", "egg1", "force7"), start=0.1, end=0.2),
+        Fact(kind="fluent", type="glued", args=("knob", "drawer", "left", 3), start=0.0, end=1.0),
+        Fact(kind="event", type="snapping_off", args=("knob",), start=1.0, end=1.1, evidence={"crackle": 2.0}),
+    ]
+    domain = Domain(
+        instances=(("egg1", "Egg"), ("egg1", "Oddity")),
+        parts=(("egg1", "eggshell1"),),
+        values=(("egg1", "mass", 0.06), ("egg1", "oddness", 3.0)),
+        relations=(("near", "egg1", "table1"),),
+    )
+    return make_timeline(facts, dt=0.001, duration=4.0, domain=domain)
+
+
+@pytest.fixture(scope="module")
+def session() -> Iterator[Session]:
+    session = Session()
+    yield session
+    session.close()
+
+
+@pytest.mark.parametrize(
+    ("goal", "message"),
+    [
+        ("holds(brocken(X), T)", r"^no fluent brocken/1; did you mean broken\(X\)\?$"),
+        ("holds(broken(eggg1), T)", "^no individual named eggg1 in .*; did you mean egg1"),
+        ("holds(broken(X, Y), T)", r"^no fluent broken/2; it is written broken\(X\)$"),
+        ("holds(supports(X), T)", r"^no fluent supports/1; it is written supports\(X, Y\)$"),
+        ("holds('Broken'(X), T)", r"no fluent 'Broken'/1; did you mean broken\(X\)"),
+        ("holds(falling(X), T)", r"^falling is an event, no fluent; ask occurs\(falling\(X\), T\)$"),
+        ("occurs(broken(X), T)", r"^broken is a fluent, no event; ask holds\(broken\(X\), T\)$"),
+        ("occurs(faling(X), T)", r"no event faling/1; did you mean falling\(X\)"),
+        ("occurs(xyzzy(X), T)", "^no event xyzzy/1; known: absorbing"),
+        ("occurs(grasping(hand1, egg1), T)", r"it is written grasping\(X, Y, Z\)"),
+        ("occurs(picking_up(hand2, egg1), T)", "no individual named hand2 .*; did you mean hand1"),
+        ("holds_at(brocken(X), 0.5)", "no fluent brocken/1"),
+        ('holds(broken("egg1"), T)', 'no individual named "egg1" .*; did you mean egg1'),
+        ("holds(3, T)", "no fluent 3"),
+        ("evidence(brocken(X), T, N, V)", "no fluent or event brocken/1"),
+        ("evidence(broken(X), T, forse, V)", "no evidence named forse .*; did you mean force"),
+        ("instance_of(eggg1, C)", "no individual named eggg1"),
+        ("instance_of(X, 'Eggg')", "no class named 'Eggg' .*; did you mean 'Egg'"),
+        ("has_part(egg1, eggshel1)", "no individual named eggshel1 .*; did you mean eggshell1"),
+        ("value(egg1, color, V)", "no property named color .*; did you mean colour"),
+        ("value(egg2, mass, V)", "no individual named egg2"),
+        ("holds(F, T), fluentT(F, 'Brocken')", "no fluent named 'Brocken' .*; did you mean broken"),
+        ("holds(F, T), eventT(F, falling), eventT(F, fallling)", "no event named fallling"),
+        ("holds(F, T), objOf(F, eggg1)", "no individual named eggg1"),
+        ("argsOf(brocken(egg1), [egg1])", "no fluent or event brocken/1"),
+        ("in(rum1, holds(broken(X), T))", "no run named rum1 .*; did you mean run1"),
+        ("fact(R, I, brocken, A, S, E)", "no fluent or event named brocken .*; did you mean broken"),
+        # Wherever it stands, and whether or not it is reached.
+        ("\\+ holds(broken(egg2), T)", "no individual named egg2"),
+        ("fail, holds(brocken(X), T)", "no fluent brocken/1"),
+        ("findall(X, (holds(broken(X), T) ; occurs(faling(X), T)), L)", "no event faling/1"),
+        ("setof(X, T^holds(brocken(X), T), L)", "no fluent brocken/1"),
+        ("maplist([X]>>holds(brocken(X), _), [egg1])", "no fluent brocken/1"),
+        ("maplist(holds(broken(egg2)), [T])", "no individual named egg2"),
+        # What is known only when the goal runs.
+        ("F = brocken(X), holds(F, T)", "no fluent brocken/1"),
+        ("member(X, [egg1, egg2]), holds(broken(X), T)", "no individual named egg2"),
+        ("O = eggg1, occurs(E, T), objOf(E, O)", "no individual named eggg1"),
+        ("atom_concat(forse, '', N), evidence(broken(X), T, N, V)", "no evidence named forse"),
+        ("maplist([C]>>instance_of(egg1, C), ['Egg', 'Eggg'])", "no class named 'Eggg'"),
+    ],
+)
+def test_what_nothing_is_called_is_an_error(session: Session, goal: str, message: str) -> None:
+    with pytest.raises(GoalError, match=message) as refused:
+        session.ask(timeline(), goal)
+    assert "\n" not in str(refused.value) and len(str(refused.value)) < 400
+
+
+@pytest.mark.parametrize(
+    "goal",
+    [
+        "holds(dented(egg1), T)",  # in the vocabulary
+        "occurs(picking_up(hand1, egg1), T)",  # a chronicle
+        "occurs(E, T), eventT(E, 'PickingUp')",
+        "holds(on(egg1, table1), 0.0)",  # a relation of the ontology
+        "holds(near(table1, egg1), 0.0)",  # one that the situation asserts
+        "occurs(snapping_off(drawer), T)",  # of a log from elsewhere
+        "occurs(E, T), eventT(E, 'SnappingOff'), eventT(E, falling)",
+        "holds(glued(drawer, knob, left, 4), T)",
+        "holds(broken(left), T)",
+        "evidence(broken(egg1), T, crackle, V)",
+        "evidence(broken(egg1), T, tilt, V)",
+        "instance_of(eggshell1, 'Oddity')",
+        "instance_of(egg1, 'Sponge')",
+        "value(eggshell1, oddness, V)",
+        "value(egg1, breakingForce, V)",
+        "argsOf(broken(egg1), [whatever])",  # lists of arguments are matched, as they are
+        "occurs(E, T), eventT(E, grasping), argsOf(E, [leftGripper, force99])",
+        "holds(broken(7), T)",
+    ],
+)
+def test_no_is_the_answer_where_all_names_are_known(session: Session, goal: str) -> None:
+    assert session.ask(timeline(), goal) == []
+
+
+def test_what_another_run_of_the_session_names_is_known() -> None:
+    session = Session()
+    other = make_timeline([Fact(kind="fluent", type="bent", args=("wire1",), start=0, end=1)], dt=0.001, duration=1.0)
+    mine = timeline()
+    with pytest.raises(GoalError, match="no fluent bent/1"):
+        session.ask(mine, "holds(bent(wire1), T)")
+    session.load(other)
+    assert session.ask(mine, "holds(bent(wire1), T)") == []
+    session.close()
+
+
+def asked(tmp_path: Path, rules: str, goal: str) -> list[object]:
+    file = tmp_path / "rules.pl"
+    file.write_text(rules)
+    session = Session(chronicles=(file,))
+    try:
+        return list(session.ask(timeline(), goal))
+    finally:
+        session.close()
+
+
+def test_what_a_rule_may_find_is_known_though_it_finds_nothing(tmp_path: Path) -> None:
+    rules = "chronicle(shaking(X, hard), T) :- holds(dented(X), T)."
+    assert asked(tmp_path, rules, "occurs(shaking(egg1, hard), T)") == []
+    with pytest.raises(GoalError, match=r"no event shakin/2; did you mean shaking\(X, Y\)"):
+        asked(tmp_path, rules, "occurs(shakin(egg1, hard), T)")
+
+
+@pytest.mark.parametrize(
+    "rules",
+    [
+        "chronicle(shaking(X), T) :- holds(brocken(X), T).",
+        "chronicle(shaking(X), T) :- aid(X, T).\naid(X, T) :- fail, holds(brocken(X), T).",
+        "chronicle(shaking(X), T) :- F = brocken(X), holds(F, T).",
+    ],
+)
+def test_a_rule_that_names_what_nothing_is_called_is_an_error(tmp_path: Path, rules: str) -> None:
+    with pytest.raises(InputError, match=r"rules.pl: .*no fluent brocken/1; did you mean broken\(X\)"):
+        asked(tmp_path, rules, "true")
+
+
+def test_the_vocabulary_is_that_of_the_program() -> None:
+    spec = importlib.util.spec_from_file_location("vocabulary", ROOT / "tools" / "vocabulary.py")
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    told = (PROLOG_FILES / "vocabulary.pl").read_text()
+    # What tests have registered meanwhile is no part of it.
+    assert set(told.splitlines()) <= set(module.vocabulary_text().splitlines()), "run tools/vocabulary.py"
+    sources = [*(ROOT / "src/prolepsis/fluents").rglob("*.py"), *(ROOT / "src/prolepsis/programs/actions").glob("*.py")]
+    registered = [name for file in sources for name in registered_in(file)]
+    assert len(registered) > 40
+    assert not [name for name in registered if f"fact_type({name}, " not in told], "run tools/vocabulary.py"
+
+
+def registered_in(file: Path) -> Iterator[str]:
+    """Yield the types of the fluents, events and actions that a file registers."""
+    from prolepsis.log.fact_types import event_of
+
+    for node in ast.walk(ast.parse(file.read_text())):
+        if isinstance(node, ast.FunctionDef):
+            for call in node.decorator_list:
+                if isinstance(call, ast.Call) and isinstance(call.func, ast.Name):
+                    if call.func.id in ("fluent", "event") and isinstance(call.args[0], ast.Constant):
+                        yield str(call.args[0].value)
+                    elif call.func.id == "action":
+                        yield event_of(node.name)
+
+
+def test_all_evidence_is_told_of() -> None:
+    assert RANGES.keys() <= EVIDENCE_UNITS.keys()
+    sources = [file for room in ("fluents", "programs") for file in (ROOT / "src/prolepsis" / room).rglob("*.py")]
+    named = {name for file in sources for name in evidence_in(file)}
+    assert len(named) > 20
+    assert named <= EVIDENCE_UNITS.keys()
+
+
+def evidence_in(file: Path) -> Iterator[str]:
+    """Yield the names of the evidence that a file writes as a table, or into one."""
+    for node in ast.walk(ast.parse(file.read_text())):
+        match node:
+            case ast.keyword(arg="evidence", value=ast.Dict(keys=keys)):
+                pass
+            case ast.Assign(targets=[ast.Name(id="evidence")], value=ast.Dict(keys=keys)):
+                pass
+            case ast.AnnAssign(target=ast.Name(id="evidence"), value=ast.Dict(keys=keys)):
+                pass
+            case ast.Subscript(value=ast.Name(id="evidence"), slice=ast.Constant() as key):
+                keys = [key]
+            case _:
+                continue
+        yield from (str(key.value) for key in keys if isinstance(key, ast.Constant))
