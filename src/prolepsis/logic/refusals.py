@@ -34,7 +34,7 @@ SYNTAX = {
 """What SWI-Prolog's messages mean."""
 SHOWN = 120
 """Characters of a goal that a message shows."""
-_CALL = re.compile(r"(\w+)(\s?)\(")
+_CALL = re.compile(r"(\w+)\s*\(")
 
 
 def shown(goal: str) -> str:
@@ -97,10 +97,10 @@ def _syntax(position: int, message: str, goal: str) -> str:
     call = _CALL.search(goal, max(0, goal.rfind("(", 0, position) + 1))
     if message == "operator expected" and call and call.end() - 2 <= position < call.end():
         name = call.group(1)
-        if call.group(2):
-            meaning = f"no space may stand between {name} and its bracket"
-        elif name[0].isupper() or name[0] == "_":
+        if name[0].isupper() or name[0] == "_":
+            small = name.lstrip("_")
             meaning = f"a predicate's name begins with a small letter, and {name} is a variable"
+            meaning += f"; write {small[0].lower()}{small[1:]}(" if small else ""
     told = f"{message}: {meaning}" if meaning else message
     return f"syntax error at {at}: {told}: {shown(goal)}"
 

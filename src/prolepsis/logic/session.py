@@ -17,6 +17,7 @@ from pathlib import Path
 
 from prolepsis.log.timeline import Timeline
 from prolepsis.logic.open_ends import open_note
+from prolepsis.logic.pasting import pasted
 from prolepsis.logic.process import ProcessLost, PrologProcess
 from prolepsis.logic.refusals import refusal, shown
 from prolepsis.logic.rules import read_rules, rule_refusal
@@ -150,7 +151,7 @@ class Session:
         """Return the answers to ``goal`` about a timeline; see ``Timeline.ask``."""
         if not isinstance(goal, str):  # pyright: ignore[reportUnnecessaryIsInstance]
             raise GoalError(f"a goal is text, as 'holds(F, T)', not {brief(type(goal).__name__)}")
-        goal = goal.strip().removeprefix("?-").lstrip()  # as docs and Prolog's own prompt write it
+        goal = pasted(goal)
         _check_question(goal, limit, time_limit)
         try:
             reply = self._reply(timeline, goal, limit, time_limit)
