@@ -237,6 +237,8 @@ class KnowledgeBase:
             parts=tuple((w, p) for w in names for p in self.situation.parts.get(w, ())),
             values=tuple((n, p, k.value) for n in names for p, k in self.quantities(n).items()),
             relations=self.relations(),
+            subclasses=tuple(sorted({(c.name, p) for c in self.vocabulary.classes.values() for p in c.parents})),
+            units=tuple((p, e.si_unit) for p, e in self.vocabulary.properties.items() if e.kind == "quantity"),
             unchecked=self.unchecked,
         )
 

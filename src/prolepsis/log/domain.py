@@ -20,6 +20,10 @@ class Domain:
     """(individual, property, value), quantities in SI units."""
     relations: tuple[tuple[str, str, str], ...] = ()
     """(relation, subject, object): what the situation asserts, which holds from 0.0 on (``log/asserted.py``)."""
+    subclasses: tuple[tuple[str, str], ...] = ()
+    """(class, class above it), as told."""
+    units: tuple[tuple[str, str], ...] = ()
+    """(property, SI unit) of quantities."""
     unchecked: str = ""
     """Why it was not decided whether this contradicts itself; empty if it does not."""
 

@@ -59,10 +59,11 @@ def _time(number: Any, least: float) -> float:
 def _domain(table: Any) -> Domain:
     """Return the domain whose rows these are; each has as many texts as its kind of row, and values may be numbers."""
     names = [each.name for each in fields(Domain)]
-    # Older folders do not say whether it was checked: it was, or they would not be.
-    if not isinstance(table, dict) or {"unchecked", *cast("dict[str, Any]", table)} != set(names):
+    # Older folders have no classes and units, and do not say whether it was checked: it was, or they would not be.
+    later = {"unchecked", "subclasses", "units"}
+    if not isinstance(table, dict) or {*later, *cast("dict[str, Any]", table)} != set(names):
         raise ValueError(f"{DOMAIN} must be an object with {', '.join(names)}")
-    rows = cast("dict[str, Any]", table)
+    rows: dict[str, Any] = {"subclasses": [], "units": [], **cast("dict[str, Any]", table)}
     unchecked = rows.get("unchecked", "")
     if not isinstance(unchecked, str):
         raise ValueError(f"{DOMAIN}: unchecked must be a text")

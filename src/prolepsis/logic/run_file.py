@@ -72,3 +72,7 @@ def _domain_rows(timeline: Timeline) -> Iterable[str]:
         yield f"part({_atom(whole)},{_atom(part)}).\n"
     for individual, name, value in domain.values:
         yield f"value({_atom(individual)},{_atom(name)},{_text(value)}).\n"
+    for name, above in domain.subclasses:
+        yield f"subclass({_atom(name)},{_atom(above)}).\n"
+    for name, unit in domain.units:
+        yield f"unit({_atom(name)},{_atom(unit)}).\n"

@@ -14,6 +14,7 @@ WHAT = {
     "individual": "individual",
     "class": "class",
     "property": "property",
+    "quantity": "property or evidence",
     "run": "run",
 }
 _FACT = re.compile(r"(.*)/(\d+)-(fluent|event)")

@@ -319,6 +319,8 @@ may(equals(?, ?)).
 may(instance_of(?, ?)).
 may(has_part(?, ?)).
 may(value(?, ?, ?)).
+may(subclass_of(?, ?)).
+may(unit(?, ?)).
 % Control.
 may((0, 0)).
 may((0 ; 0)).

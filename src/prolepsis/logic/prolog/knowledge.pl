@@ -6,9 +6,13 @@
 :- module(knowledge,
           [ instance_of/2,              % ?Individual, ?Class
             has_part/2,                 % ?Whole, ?Part
-            value/3                     % ?Individual, ?Property, ?Value
+            value/3,                    % ?Individual, ?Property, ?Value
+            subclass_of/2,              % ?Class, ?Above
+            unit/2                      % ?Name, ?Unit
           ]).
+:- use_module(library(lists)).
 :- use_module(runs).
+:- use_module(vocabulary).
 
 %!  instance_of(?Individual, ?Class) is nondet.
 %
@@ -33,3 +37,54 @@ has_part(Whole, Part) :-
 value(Individual, Property, Value) :-
     current_run(Run),
     Run:value(Individual, Property, Value).
+
+%!  subclass_of(?Class, ?Above) is nondet.
+%
+%   True if Above is a class above Class, as told, at any height: each once, the nearest first.
+
+subclass_of(Class, Above), var(Class), nonvar(Above) =>
+    setof(Each, Near^told_above(Each, Near), Classes),
+    member(Class, Classes),
+    above([Class], [], All),
+    memberchk(Above, All).
+subclass_of(Class, Above), var(Class) =>
+    setof(Each, Near^told_above(Each, Near), Classes),
+    member(Class, Classes),
+    subclass_of(Class, Above).
+subclass_of(Class, Above) =>
+    above([Class], [], All),
+    member(Above, All).
+
+%   above(+Queue, +Seen, -All): those above the classes in Queue that are not in Seen, by height.
+
+above([], _, []).
+above([Class|Queue], Seen, All) :-
+    findall(Above, told_above(Class, Above), Aboves0),
+    sort(Aboves0, Aboves),
+    subtract(Aboves, [Class|Seen], New),
+    append(New, Seen, Seen1),
+    append(Queue, New, Queue1),
+    append(New, More, All),
+    above(Queue1, Seen1, More).
+
+told_above(Class, Above) :-
+    current_run(Run),
+    Run:subclass(Class, Above).
+told_above(Class, Above) :-
+    parent(Class, Above).
+
+%!  unit(?Name, ?Unit) is nondet.
+%
+%   True if the values of the property Name, or of evidence of that name, are in the SI unit Unit; each pair once.
+
+unit(Name, Unit) :-
+    findall(Name-Unit, unit_of(Name, Unit), Pairs0),
+    sort(Pairs0, Pairs),
+    member(Name-Unit, Pairs).
+
+unit_of(Name, Unit) :-
+    current_run(Run),
+    Run:unit(Name, Unit).
+unit_of(Name, Unit) :-
+    ( property(Name, Unit) ; evidence_unit(Name, Unit) ),
+    Unit \== ''.

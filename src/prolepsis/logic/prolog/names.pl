@@ -42,6 +42,8 @@ takes(in(run, ?)).
 takes(instance_of(individual, class)).
 takes(has_part(individual, individual)).
 takes(value(individual, property, ?)).
+takes(subclass_of(class, class)).
+takes(unit(quantity, ?)).
 takes(matching(?, ?, ?, type(fact), individual)).
 
 %!  check_names(+Goal) is det.
@@ -199,14 +201,17 @@ known(individual, Name) :-
 known(class, Name) :-
     (   class(Name)
     ;   known_run(_, Run),
-        Run:instance(_, Name)
+        class_of(Run, Name)
     ),
     !.
 known(property, Name) :-
     (   property(Name, _)
     ;   known_run(_, Run),
-        Run:value(_, Name, _)
+        ( Run:value(_, Name, _) ; Run:unit(Name, _) )
     ),
+    !.
+known(quantity, Name) :-
+    ( known(property, Name) ; known(evidence, Name) ),
     !.
 known(evidence, Name) :-
     (   evidence_unit(Name, _)
@@ -225,6 +230,10 @@ type_name(Kind, Name) :- declared(Kind, Name, _).
 known_type_spelled(Kind, Name) :-
     type_name(Kind, Known),
     timeline:same_type(Name, Known).
+
+class_of(Run, Name) :- Run:instance(_, Name).
+class_of(Run, Name) :- Run:subclass(Name, _).
+class_of(Run, Name) :- Run:subclass(_, Name).
 
 %   individual(+Run, ?Name)
 
@@ -291,9 +300,11 @@ candidate(individual, Name) =>
         atom(Name)
     ).
 candidate(class, Name) =>
-    ( class(Name) ; known_run(_, Run), Run:instance(_, Name) ).
+    ( class(Name) ; known_run(_, Run), class_of(Run, Name) ).
 candidate(property, Name) =>
-    ( property(Name, _) ; known_run(_, Run), Run:value(_, Name, _) ).
+    ( property(Name, _) ; known_run(_, Run), ( Run:value(_, Name, _) ; Run:unit(Name, _) ) ).
+candidate(quantity, Name) =>
+    ( candidate(property, Name) ; candidate(evidence, Name) ).
 candidate(evidence, Name) =>
     ( evidence_unit(Name, _) ; known_run(_, Run), Run:proof(_, Name, _) ).
 candidate(run, Name) =>
