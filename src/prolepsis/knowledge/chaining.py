@@ -20,7 +20,12 @@ DEPTH = 3
 MOST_STEPS = 20_000_000
 """... and chaining ends, undecided, after so many steps: about a minute, but the same on every machine."""
 
+MOST_VALUES = 20
+"""Of a count in a conclusion, at most so many values without a name are made; more are left to the reasoner."""
+
 _Rule = tuple[Tree, Tree]
+_Want = tuple[str, Tree, Tree, int]
+"""A thing that needs values by a role, of which kind, and how many."""
 
 
 class StepsError(Exception):
@@ -38,6 +43,8 @@ class Chaining:
         self.steps = 0
         self._rules: dict[str, list[_Rule]] = {}
         self._some: dict[str, list[tuple[Tree, str]]] = {}
+        self._least: dict[str, int] = {}
+        """How many values are needed for a name, where that is not one."""
         self._fillers: dict[tuple[str, bool], list[tuple[str, str]]] = {}
         self._uppers: dict[str, list[tuple[str, bool]]] = {}
         self.functional: set[str] = set()
@@ -45,10 +52,12 @@ class Chaining:
         self._transitive: set[str] = set()
         self._only: dict[tuple[str, Tree], list[Tree]] = {}
         self._news: deque[tuple[str, str]] = deque()
-        self._wanted: deque[tuple[str, Tree, Tree]] = deque()
-        self._put_off: deque[tuple[str, Tree, Tree]] = deque()
+        self._wanted: deque[_Want] = deque()
+        self._put_off: deque[_Want] = deque()
         self._origin: dict[str, tuple[str, int]] = {}
-        self._shared: dict[tuple[str, Tree, Tree], str] | None = None
+        self._choices: deque[tuple[str, tuple[Tree, ...]]] = deque()
+        """Things without a name that must be one of several: which, decides nothing of those that have one."""
+        self._shared: dict[_Want, str] | None = None
         for tree in self.axioms:
             self._read_term(tree)
         for tree in self.axioms:
@@ -114,20 +123,28 @@ class Chaining:
                 return (functor, *(self._condition(part) for part in parts))
             case ("ObjectMinCardinality", "1", role, filler):
                 return self._condition(("ObjectSomeValuesFrom", role, filler))
+            case ("ObjectComplementOf", ("ObjectMaxCardinality", str(number), role, filler)):
+                return self._condition(("ObjectMinCardinality", str(int(number) + 1), role, filler))
+            case ("ObjectMinCardinality", str(number), role, filler) if number != "0":
+                self._least[f"is {left}"] = int(number)
+                return self._step(role, self._filler(filler), left)
             case ("ObjectHasValue", role, str(value)):
                 return self._step(role, f"one {value}", left)
             case ("ObjectOneOf", *values):
                 return ("ObjectUnionOf", *(f"one {value}" for value in values))
-            case ("ObjectSomeValuesFrom", role, str(filler)):
-                return self._step(role, filler, left)
             case ("ObjectSomeValuesFrom", role, filler):
-                named = f"is {filler}"
-                if named not in self._some:
-                    self._some.setdefault(named, [])
-                    self._rule(filler, named)
-                return self._step(role, named, left)
+                return self._step(role, self._filler(filler), left)
             case _:
                 return f"never {left}"
+
+    def _filler(self, filler: Tree) -> str:
+        if isinstance(filler, str):
+            return filler
+        named = f"is {filler}"
+        if named not in self._some:
+            self._some.setdefault(named, [])
+            self._rule(filler, named)
+        return named
 
     def _step(self, role: Tree, filler: str, expression: Tree) -> str:
         name = f"is {expression}"
@@ -176,7 +193,7 @@ class Chaining:
             for inverse, here, there in ((False, subject, value), (True, value, subject)):
                 for filler, name in self._fillers.get((role, inverse), ()):
                     if filler in self.structure.types[there]:
-                        self._add(here, name)
+                        self._tell(here, ("ObjectInverseOf", role) if inverse else role, filler, name)
                 key: Tree = ("ObjectInverseOf", role) if inverse else role
                 for filler in self._only.get((here, key), ()):
                     self._derive(there, filler)
@@ -190,10 +207,12 @@ class Chaining:
             case ("ObjectIntersectionOf", *parts):
                 for part in parts:
                     self._derive(node, part)
+            case ("ObjectUnionOf", *parts) if node.startswith("_:"):
+                self._choices.append((node, tuple(parts)))
             case ("ObjectSomeValuesFrom", role, filler):
-                self._wanted.append((node, role, filler))
+                self._wanted.append((node, role, filler, 1))
             case ("ObjectMinCardinality" | "ObjectExactCardinality", str(number), role, filler) if number != "0":
-                self._wanted.append((node, role, filler))
+                self._wanted.append((node, role, filler, min(int(number), MOST_VALUES)))
             case ("ObjectHasValue", str(role), str(value)):
                 self._link(role, node, value)
             case ("ObjectHasValue", ("ObjectInverseOf", str(role)), str(value)):
@@ -218,30 +237,32 @@ class Chaining:
             case _:
                 return False
 
-    def _give(self, node: str, role: Tree, filler: Tree) -> None:
-        """Give a thing a value of a kind, unless it has one."""
+    def _give(self, node: str, role: Tree, filler: Tree, number: int) -> None:
+        """Give a thing values of a kind, unless it has so many."""
         values = tuple(self.structure.values(role, node))
-        if any(self._is(value, filler) for value in values):
+        there = sum(self._is(value, filler) for value in values)
+        if there >= number:
             return
         if values and role in self.functional:
             self._derive(values[0], filler)
             return
         root, depth = self._origin[node]
         if depth >= DEPTH and self._shared is None:
-            self._put_off.append((node, role, filler))
+            self._put_off.append((node, role, filler, number))
             return
-        key = (root, role, filler)
-        value = self._shared.get(key) if self._shared is not None else None
-        if value is None:
-            value = f"_:{len(self.structure.types)}"
-            self._node(value, root, depth + 1)
-            if self._shared is not None:
-                self._shared[key] = value
-        if isinstance(role, str):
-            self._link(role, node, value)
-        else:
-            self._link(str(role[1]), value, node)
-        self._derive(value, filler)
+        for k in range(there, number):
+            key = (root, role, filler, k)
+            value = self._shared.get(key) if self._shared is not None else None
+            if value is None:
+                value = f"_:{len(self.structure.types)}"
+                self._node(value, root, depth + 1)
+                if self._shared is not None:
+                    self._shared[key] = value
+            if isinstance(role, str):
+                self._link(role, node, value)
+            else:
+                self._link(str(role[1]), value, node)
+            self._derive(value, filler)
 
     def _is(self, node: str, expression: Tree) -> bool:
         try:
@@ -272,19 +293,43 @@ class Chaining:
         for back, named in self._some.get(name, ()):
             for other in tuple(self.structure.values(back, node)):
                 self.steps += 1
-                self._add(other, named)
+                forth = back[1] if isinstance(back, tuple) else ("ObjectInverseOf", back)
+                self._tell(other, forth, name, named)
+
+    def _tell(self, node: str, role: Tree, filler: str, name: str) -> None:
+        """Give a thing the name of those with a value of a kind, or with so many: only what is named is surely two."""
+        least = self._least.get(name, 1)
+        if least > 1:
+            if name in self.structure.types[node]:
+                return
+            values = [value for value in self.structure.values(role, node) if not value.startswith("_:")]
+            self.steps += len(values)
+            if sum(filler in self.structure.types[value] for value in values) < least:
+                return
+        self._add(node, name)
 
     def share(self) -> bool:
-        """Let things without a name be the values of several others, and go on; return whether that was needed.
+        """Let things without a name be the values of several others, and one of those that they must be one of, and go
+        on; return whether that was needed.
 
         What follows from then on need not be right of others, but the structure can come to an end, and be a model.
         """
-        if not self._put_off:
+        if not (self._put_off or self._choices):
             return False
         self._shared = {}
         self._wanted, self._put_off = self._put_off, deque()
         self.run()
+        while self._choices:
+            node, parts = self._choices.popleft()
+            if not any(self._is(node, part) for part in parts):
+                self._derive(node, next((part for part in parts if not self._excluded(node, part)), parts[0]))
+                self.run()
         return True
+
+    def _excluded(self, node: str, part: Tree) -> bool:
+        types = self.structure.types[node]
+        apart = (tree[1:] for tree in self.axioms if isinstance(tree, tuple) and tree[0] == "DisjointClasses")
+        return any(part in names and any(each in types for each in names if each != part) for names in apart)
 
     def named(self) -> dict[str, frozenset[str]]:
         """Return individual to classes, both as bracketed IRIs."""
