@@ -7,7 +7,7 @@ import pytest
 from prolepsis.knowledge.axioms import Axiom
 from prolepsis.knowledge.chaining import clashes
 from prolepsis.knowledge.reasoner import is_consistent
-from prolepsis.terms.errors import KnowledgeError
+from prolepsis.terms.errors import KnowledgeError, UndecidedError
 
 DECLARED = tuple(f"Declaration(Class(<c:{name}>))" for name in "ABN") + ("Declaration(ObjectProperty(<r:r>))",)
 
@@ -56,3 +56,12 @@ def test_individuals_may_be_the_same_unless_they_are_said_to_differ() -> None:
 def test_an_undeclared_class_is_refused_and_not_taken_for_empty() -> None:
     with pytest.raises(KnowledgeError, match="the reasoner refuses the axioms: .*DECLARATION"):
         consistent("SubClassOf(<c:A> <c:Unknown>)")
+
+
+def test_where_the_reasoner_overlooks_contradictions_it_decides_none() -> None:
+    # Three values of one thing would all be the one individual.
+    three = "ObjectSomeValuesFrom(ObjectInverseOf(<r:r>) ObjectMinCardinality(3 <r:r> <c:B>))"
+    texts = ("EquivalentClasses(<c:A> ObjectOneOf(<i:1>))", f"EquivalentClasses(<c:A> {three})")
+    with pytest.raises(UndecidedError, match="counts, inverses and individuals"):
+        consistent(*texts)
+    assert not consistent(*texts, "ClassAssertion(<c:N> <i:1>)", "DisjointClasses(<c:A> <c:N>)")
