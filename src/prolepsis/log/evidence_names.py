@@ -41,6 +41,7 @@ EVIDENCE_UNITS: Mapping[str, str] = {
     "pieces_off": "1",
     "tries": "1",
     "by": "",
+    "ends": "",
     "outcome": "",
     "reason": "",
     "source": "",
