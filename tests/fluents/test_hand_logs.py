@@ -162,13 +162,13 @@ def test_actions_become_events_in_ing() -> None:
 
 def test_any_action_of_a_log_is_an_event_with_its_arguments() -> None:
     draft = grasp_draft()
-    stir = Action(term=Term("stir", ("rightGripper", (0.1, 2))), start=10, end=10, outcome="cut")
+    stir = Action(term=Term("stir", ("rightGripper", (0.1, 2))), start=10, end=10, outcome="unfinished")
     (fact,) = recognize(draft.log(actions=(stir,))).select(type="stirring")
     assert (fact.start, fact.end, fact.args, fact.evidence["outcome"]) == (
         0.01,
         0.011,
         ("rightGripper", "[0.1,2]"),
-        "cut",
+        "unfinished",
     )
 
 

@@ -209,7 +209,9 @@ def _senses(state: State, controls: Controls) -> Callable[[float], Sense]:
 
 def _note(command: Command, tick: int, running: dict[Term, list[Action]], actions: list[Action]) -> None:
     if isinstance(command, Begin):
-        begun = Action(term=command.term, arguments=dict(command.arguments), start=tick, end=tick + 1, outcome="cut")
+        begun = Action(
+            term=command.term, arguments=dict(command.arguments), start=tick, end=tick + 1, outcome="unfinished"
+        )
         # The same action may run twice at once, as two waits that are done together.
         running.setdefault(command.term, []).append(begun)
     elif isinstance(command, End):

@@ -15,6 +15,7 @@ from prolepsis.log import particle_tables, tables
 from prolepsis.log.checks import check_columns, check_log, check_types
 from prolepsis.log.happenings import Happenings
 from prolepsis.log.log import Action, Log, Particles
+from prolepsis.log.outcomes import Outcome
 from prolepsis.log.sealed import read_sealed, read_text, write_json, write_sealed
 from prolepsis.log.things import Mount, Thing
 from prolepsis.terms.errors import InputError, LogError, brief
@@ -37,7 +38,7 @@ class _Action(BaseModel):
     arguments: dict[str, str]
     start: int
     end: int
-    outcome: str
+    outcome: Outcome
     evidence: dict[str, float | str]
 
 

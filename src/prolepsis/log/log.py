@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from prolepsis.geometry.shape import FloatArray, IntArray, Triple
 from prolepsis.log.happenings import DETACHMENT, Happenings
+from prolepsis.log.outcomes import Outcome
 from prolepsis.log.things import Thing
 from prolepsis.terms.terms import Term, Value
 
@@ -146,8 +147,8 @@ class Action:
     """First tick."""
     end: int
     """First tick no longer."""
-    outcome: str = "done"
-    """``done``, or why it ended otherwise: ``timed_out``, ``unreachable``, ``cut`` (the run ended first)."""
+    outcome: Outcome = "done"
+    """How it ended, one of ``OUTCOMES``."""
     evidence: Mapping[str, float | str] = field(default_factory=dict[str, "float | str"])
     """Measured numbers: the commanded force [N], the greatest force reached [N] ..."""
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Generator, Mapping
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Literal, Protocol
 
 from prolepsis.geometry.shape import IDENTITY, FloatArray, Quaternion, Triple
+from prolepsis.log.outcomes import Outcome
 from prolepsis.terms.terms import Term, Value
 
 
@@ -91,7 +92,7 @@ class End:
     """An action ends."""
 
     term: Term
-    outcome: str = "done"
+    outcome: Outcome = "done"
     evidence: Mapping[str, float | str] = field(default_factory=dict[str, "float | str"])
 
 
@@ -111,15 +112,15 @@ class JointPath:
 
     joints: FloatArray
     """Coordinates one after the other [rad], shape (k, n); as far as it gets if there is a problem."""
-    problem: str = ""
-    """``unreachable`` or ``in_collision``, if there is one."""
+    problem: Literal["", "unreachable", "in_collision"] = ""
+    """Why it does not."""
     detail: str = ""
     """How far it stays away, or what is in the way."""
 
 
 def no_joint_path(first: JointPath | None, what: str, otherwise: str) -> ActionFailedError:
     """Return why ``what`` cannot be done: what stood in the first path that was looked at, or ``otherwise`` if none."""
-    if first is None:
+    if first is None or not first.problem:
         return ActionFailedError("unreachable", f"{what}: {otherwise}")
     return ActionFailedError(first.problem, f"{what}: {first.detail}")
 
@@ -179,10 +180,10 @@ class ArmSense(Protocol):
 class ActionFailedError(Exception):
     """An action cannot be carried on: the rest of its sequence is not done. No error of the user's: an outcome."""
 
-    def __init__(self, outcome: str, detail: str) -> None:
+    def __init__(self, outcome: Outcome, detail: str) -> None:
         """Say the outcome, such as ``unreachable``, and why."""
         super().__init__(f"{outcome}: {detail}")
-        self.outcome = outcome
+        self.outcome: Outcome = outcome
         self.detail = detail
 
 

@@ -159,7 +159,7 @@ def _reach_by_arm(
             sense = yield from go(hand, sense, pose.before(back), pose.rotation, ())
             step = triple(np.subtract(pose.offset, pose.before(back)))
             return (yield from travel(hand, sense, step, 2.0, speed))
-    if first is None:
+    if first is None or not first.problem:
         raise ActionFailedError("not_graspable", f"{object.name} is too wide or too thin for {hand.name} as it lies")
     raise ActionFailedError(first.problem, f"{object.name} by {hand.name}: {first.detail}")
 
