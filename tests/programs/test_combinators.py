@@ -152,7 +152,10 @@ def test_what_slips_out_of_the_hand_is_dropped(two_hands: Scene) -> None:
         def sense(self, time: float) -> Sense:
             full = super().sense(time)
             lost = self.offset[2] > 0.05
-            hands = {n: replace(h, pad_force=0.0 if lost else h.grip) for n, h in full.hands.items()}
+            hands = {
+                n: replace(h, pad_force=0.0 if lost else h.grip, held=lambda: () if lost else ("egg1",))
+                for n, h in full.hands.items()
+            }
             return replace(full, hands=hands)
 
     plan = "sequence([close(hand1, 5), lift(hand1, 0.1), wait(0.1)])"

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import get_args
 
-from tests.scenes import run
+import pytest
+from tests.programs.test_programs import FakeHand
+from tests.scenes import run, scene
 
+from prolepsis.log.log import Log
 from prolepsis.log.outcomes import GOES_ON, OUTCOMES, Outcome
+from prolepsis.programs.actions.striking import push_down
+from prolepsis.programs.nesting import as_event
+from prolepsis.robots.commands import Command, End, Sense
+from prolepsis.robots.hand import HAND
 
 DOCS = Path(__file__).parents[2] / "docs"
 
@@ -23,3 +31,91 @@ def test_all_outcomes_stand_in_one_place_and_in_the_docs() -> None:
 def test_what_the_end_of_a_run_cuts_off_is_unfinished() -> None:
     log = run(":floor a :Floor .", "sequence([wait(0.01), wait(1.0)])", duration=0.05)
     assert [action.outcome for action in log.actions] == ["done", "unfinished"]
+
+
+BLOCK = ":floor a :Floor . :table1 a :Table . :block1 a :Block ; :on :table1 ; :length 0.04 ; :width 0.04 ; "
+ABOVE = " :hand1 a :Gripper ; :pitch 90.0 ; :z 0.9 ; :opening 0.03 ."
+"""A hand in the air, which points down."""
+
+
+def ended(log: Log) -> list[tuple[str, str, str]]:
+    """Return verb, outcome and reason of each action, in the order of their ends, parts before their wholes."""
+    done = sorted(reversed(log.actions), key=lambda action: (action.end, -action.start, action.term.functor == "grasp"))
+    return [(each.term.functor, each.outcome, str(each.evidence.get("reason", ""))) for each in done]
+
+
+def test_pads_that_press_each_other_hold_nothing() -> None:
+    plan = "sequence([close(hand1, 20), press(hand1, block1, table1, 5), wait(1)])"
+    log = run(BLOCK + ":height 0.04 ." + ABOVE, plan)
+    assert ended(log) == [
+        ("close", "missed", "between the pads of hand1 is nothing"),
+        ("press", "not_held", "hand1 does not hold block1: between its pads is nothing"),
+    ]
+    assert log.actions[0].evidence["between"] == "nothing"
+    # They do press, with the force that was asked for.
+    assert log.actions[0].evidence["peak_pad_force"] == pytest.approx(20.0, rel=0.05)
+
+
+def test_a_grasp_that_closes_on_another_thing_has_missed() -> None:
+    # The second block lies on the first one, and the pads reach higher than that.
+    both = BLOCK + ":height 0.004 . :block2 a :Block ; :on :block1 ; :length 0.04 ; :width 0.05 ; :height 0.04 ."
+    log = run(both + " :hand1 a :Gripper ; :pitch 90.0 ; :z 0.8 ; :opening 0.085 .", "grasp(hand1, block1, 10, 0.03)")
+    assert ended(log)[-1] == ("grasp", "missed", "between the pads of hand1 is block2, not block1")
+
+
+def test_fingers_that_cannot_open_end_their_action() -> None:
+    wall = " :wall{0} a :Obstacle ; :on :table1 ; :y {1} ; :length 0.1 ; :width 0.04 ; :height 0.15 ."
+    walls = wall.format(1, 0.05) + wall.format(2, -0.05)
+    hand = " :hand1 a :Gripper ; :pitch 90.0 ; :z 0.8 ; :opening 0.02 ."
+    log = run(":floor a :Floor . :table1 a :Table ." + walls + hand, "release(hand1)")
+    ((_, outcome, reason),) = ended(log)
+    assert outcome == "in_collision"
+    assert reason.endswith("its fingers are pressed against wall1 and wall2")
+
+
+@pytest.mark.parametrize(
+    ("hand", "reason"),
+    [
+        (":z 0.8", "hand1: it is pressed against table1"),
+        (":pitch 90.0 ; :z 0.9", "hand1: its fingers are pressed against wall1"),
+    ],
+)
+def test_what_is_in_the_way_of_a_free_hand_ends_its_reaching(hand: str, reason: str) -> None:
+    wall = " :wall1 a :Obstacle ; :on :table1 ; :y 0.045 ; :length 0.1 ; :width 0.04 ; :height 0.03 ."
+    x = "-0.25" if "pitch" not in hand else "0"
+    gripper = f" :hand1 a :Gripper ; :x {x} ; {hand} ; :opening 0.085 ."
+    log = run(BLOCK + ":height 0.012 ." + wall + gripper, "grasp(hand1, block1, 10)")
+    assert ended(log) == [("reach", "in_collision", reason), ("grasp", "in_collision", reason)]
+
+
+def test_a_hand_that_is_held_up_has_not_reached_its_place() -> None:
+    log = run(":floor a :Floor . :table1 a :Table ." + ABOVE, "sequence([lift(hand1, -0.25), lift(hand1, 0.05)])")
+    (_, first, reason), (_, second, _) = ended(log)
+    assert first == "not_reached"
+    assert "mm and 0.0" in reason
+    # It is still held up; the plan goes on all the same.
+    assert second in ("done", "not_reached")
+
+
+class Yielding(FakeHand):
+    """A hand under which a surface yields at 19 N."""
+
+    def sense(self, time: float) -> Sense:
+        force = max(HAND.position_gain * min(self.offset[2], 0.0), -19.0)
+        full = super().sense(time)
+        hands = {n: replace(h, load=lambda: (0.0, 0.0, force)) for n, h in full.hands.items()}
+        return replace(full, hands=hands)
+
+
+@pytest.mark.parametrize(("force", "outcome", "reason"), [(15.0, "done", ""), (45.0, "not_reached", "19 of 45 N")])
+def test_a_push_is_done_if_its_force_was_there(force: float, outcome: str, reason: str) -> None:
+    hand = Yielding((0.0, 0.0, 0.722))
+    thing = scene(BLOCK + ":height 0.04 ." + ABOVE).thing("hand1")
+    behaviour = as_event("push", {"hand": thing}, push_down(thing, hand.sense(0.0), force, 0.5), hand.sense(0.0))
+    said: list[Command] = list(next(behaviour))
+    with pytest.raises(StopIteration):
+        while True:
+            hand.obey(tuple(said))
+            said += behaviour.send(hand.sense(0.0))
+    last = [each for each in said if isinstance(each, End)][-1]
+    assert (last.outcome, last.evidence.get("reason", "")) == (outcome, reason)

@@ -49,6 +49,7 @@ class FakeHand:
             stiffness=HAND.position_gain,
             pad_force=self.force,
             motion=self.motion,
+            held=lambda: ("egg1",) if self.force else (),
         )
         return Sense(
             time=time, hands={"hand1": hand}, position=lambda name: (0.0, 0.0, 0.722), orientation=lambda _: IDENTITY
@@ -143,7 +144,7 @@ def test_grasp_reaches_for_what_is_elsewhere_and_closes_with_the_named_level(egg
 
 def test_grasp_tells_the_greatest_pad_force_as_evidence(egg_in_hand: Scene) -> None:
     ends = [c for _, c in carried_out("grasp(hand1, egg1, 5)", egg_in_hand) if isinstance(c, End)]
-    assert ends[0].evidence == {"peak_pad_force": 5.0}
+    assert ends[0].evidence == {"peak_pad_force": 5.0, "between": "egg1"}
 
 
 REFUSED = [

@@ -39,7 +39,7 @@ def _pressed(sense: Sense, *, object: Thing, other: Thing, force: float) -> bool
 
 
 def _holding(sense: Sense, *, hand: Thing) -> bool:
-    return sense.hands[hand.name].pad_force > 0.0
+    return bool(sense.hands[hand.name].held())
 
 
 def _above(sense: Sense, *, object: Thing, height: float) -> bool:
@@ -56,7 +56,7 @@ CONDITIONS = {
     "pressed": ConditionSpec(
         parameters=(OBJECT, OTHER, FORCE), doc="The two are pressed together with at least a force.", holds=_pressed
     ),
-    "holding": ConditionSpec(parameters=(HAND,), doc="Both pads of the hand feel something.", holds=_holding),
+    "holding": ConditionSpec(parameters=(HAND,), doc="The hand feels something between its pads.", holds=_holding),
     "above": ConditionSpec(
         parameters=(OBJECT, ParameterSpec(name="height", kind="length")),
         doc="The object's frame is higher than a height over the ground.",

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from prolepsis.log.outcomes import Outcome
 from prolepsis.log.things import Thing
 from prolepsis.programs.action import ACTIONS
-from prolepsis.robots.commands import ActionFailedError, Begin, Behaviour, End, Measured, Sense, is_instant
+from prolepsis.robots.commands import ActionFailedError, Begin, Behaviour, End, HandSense, Measured, Sense, is_instant
 from prolepsis.scene.scene import Scene
 from prolepsis.terms.terms import Term, Value
 
@@ -38,9 +39,10 @@ def as_event(
     named.update(zip(named, said, strict=False))
     term = Term(name, said)
     evidence: dict[str, float | str] = {}
+    outcome: Outcome = "done"
     peak = -1.0
     hands = [each for each in sense.hands if each in named.values()]
-    held = {each for each in hands if sense.hands[each].grip > 0 and sense.hands[each].pad_force > 0}
+    held = {each: {*sense.hands[each].held()} for each in hands if sense.hands[each].grip > 0}
     lost = dict.fromkeys(hands, 0)
     sense = yield (Begin(term=term, arguments=named),)
     first = True
@@ -58,6 +60,7 @@ def as_event(
         for note in made:
             if isinstance(note, Measured):
                 evidence |= note.evidence
+                outcome = note.outcome or outcome
         sense = yield made
         if is_instant(made):
             continue
@@ -66,8 +69,16 @@ def as_event(
             if hand.pad_force > peak:
                 evidence["peak_pad_force"] = peak = hand.pad_force
             lost[each] = lost[each] + 1 if hand.grip > 0 and hand.pad_force == 0 else 0
-    dropped = any(lost[each] >= LOST_TICKS for each in held)
-    return (yield (End(term=term, outcome="dropped" if dropped else "done", evidence=evidence),))
+    dropped = any(_is_dropped(sense.hands[each], held[each], lost[each]) for each in held)
+    return (yield (End(term=term, outcome="dropped" if dropped else outcome, evidence=evidence),))
+
+
+def _is_dropped(hand: HandSense, before: set[str], lost: int) -> bool:
+    """Return whether a hand that should hold what it held before does not."""
+    if not before or not hand.grip:
+        return False
+    # Pads that have lost what was between them press each other.
+    return lost >= LOST_TICKS or (hand.pad_force > 0.0 and before.isdisjoint(hand.held()))
 
 
 def nested(name: str, scene: Scene, sense: Sense, **arguments: Any) -> Behaviour:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.geometry.rotations import angles_of, compose_pose, relative_pose, turned
+from prolepsis.geometry.rotations import angle_between, angles_of, compose_pose, from_axes, relative_pose, turned
 from prolepsis.geometry.shape import FloatArray, Quaternion, Triple, quaternion, triple
 from prolepsis.log.things import Thing
 from prolepsis.robots.arm_paths import ArmPaths, name_of
@@ -14,6 +14,7 @@ from prolepsis.robots.commands import ArmTarget, Command, HandSense, HandTarget
 from prolepsis.robots.effectors.kind import KINDS, EffectorControl
 from prolepsis.robots.inverse import ArmKinematics
 from prolepsis.robots.model import robot_model
+from prolepsis.robots.touch import on_fingers
 from prolepsis.scene.robot import Robot
 from prolepsis.scene.running import Running
 from prolepsis.system.mujoco import mujoco
@@ -77,8 +78,9 @@ class ArmHand:
         self._lags = (np.array([joint.damping for joint in self._arm.joints]) + model.dof_damping[dofs]) / self._stiff
         self._mount, self._palm = (int(model.body(name).id) for name in self._names)
         self._tool = int(model.site(f"{self.name}/tool").id)
-        self._links, fingers = self._bodies(int(model.jnt_bodyid[model.joint(names[0]).id]))
-        self.paths.bind(state, addresses, self._links, fingers)
+        self._links, self._fingers = self._bodies(int(model.jnt_bodyid[model.joint(names[0]).id]))
+        self._own = frozenset((*self._links, *self._fingers))
+        self.paths.bind(state, addresses, self._links, self._fingers)
 
     def _bodies(self, first: int) -> tuple[dict[int, str], list[int]]:
         """Return the links from ``first`` to the palm by body, and what moves on the palm or is a pad."""
@@ -168,12 +170,30 @@ class ArmHand:
             load=self._load,
             velocity=self._velocity,
             pad_force=self.gripper.pad_force,
+            held=self._held,
+            fingers=self._on_fingers,
             motion=self.gripper.motion,
             stiffness=self._stiffness,
             lag=self._lag,
             bump=self._bump,
+            away=self._away,
             arm=self.paths,
         )
+
+    def _held(self) -> tuple[str, ...]:
+        rotation: FloatArray = np.asarray(self._data.site_xmat[self._tool], dtype=np.float64).reshape(3, 3)
+        ahead, across = self.paths.held_at(self.gripper.opening)
+        middle = self._data.site_xpos[self._tool] + rotation @ (ahead, across, 0.0)
+        return self.gripper.held(self._own, middle)
+
+    def _away(self) -> tuple[float, float]:
+        commanded = self._commanded()
+        distance = float(np.linalg.norm(commanded[:3] - self._data.site_xpos[self._tool]))
+        rotation: FloatArray = np.asarray(self._data.site_xmat[self._tool], dtype=np.float64).reshape(3, 3)
+        return distance, float(angle_between(commanded[3:], np.array(from_axes(rotation))))
+
+    def _on_fingers(self) -> dict[str, float]:
+        return on_fingers(self._state, self._fingers, self._own)
 
     def _orientation(self) -> Quaternion:
         # Most programs do not turn the hand: it is kept.

@@ -101,6 +101,8 @@ class Measured:
     """What an action has measured, for its event."""
 
     evidence: Mapping[str, float | str]
+    outcome: Outcome | None = None
+    """How it ends if it goes on to its end, where that is not ``done``."""
 
 
 Command = HandTarget | ArmTarget | JointTarget | CloseGripper | OpenGripper | Begin | Measured | End
@@ -187,6 +189,21 @@ class ActionFailedError(Exception):
         self.detail = detail
 
 
+def nothing() -> tuple[str, ...]:
+    """Return that the pads hold nothing."""
+    return ()
+
+
+def untouched() -> Mapping[str, float]:
+    """Return that nothing presses on the fingers."""
+    return {}
+
+
+def on_target() -> tuple[float, float]:
+    """Return that a hand is where it should be."""
+    return (0.0, 0.0)
+
+
 def standing_still() -> Triple:
     """Return no velocity."""
     return (0.0, 0.0, 0.0)
@@ -214,7 +231,14 @@ class HandSense:
     velocity: Callable[[], Triple] = standing_still
     """Measured velocity of the hand's frame in the world [m/s]; computed when asked."""
     pad_force: float
-    """The smaller of the two pads' normal forces [N]."""
+    """The smaller of the two pads' normal forces [N], also of pads that press each other."""
+    held: Callable[[], tuple[str, ...]] = nothing
+    """Wholes that it holds, as what lies between two pads that both feel something; computed when asked."""
+    away: Callable[[], tuple[float, float]] = on_target
+    """How far it is from where it is commanded to be [m], and how far it is turned from that [rad]; computed when
+    asked."""
+    fingers: Callable[[], Mapping[str, float]] = untouched
+    """Force with which each other thing presses on the fingers [N]; computed when asked."""
     motion: int
     """1 opening, -1 closing, 0 idle."""
     stiffness: float
@@ -222,7 +246,7 @@ class HandSense:
     lag: float = 0.0
     """How far the commanded joints are from putting the hand on its target [m]."""
     bump: str = ""
-    """What the hand's arm or palm is pressed against, if anything."""
+    """What the hand's palm, or the arm that carries it, is pressed against, if anything."""
     arm: ArmSense | None = None
     """The arm that carries it; None for a hand that flies."""
 
@@ -283,9 +307,11 @@ class Sense:
 
 Behaviour = Generator[tuple[Command, ...], Sense, Sense]
 """A program: at each tick it yields commands and receives what is sensed at the next; it returns its last sense. That
-actions begin or end it yields apart: this takes no time, and it receives what is sensed at the same tick."""
+actions begin or end, or what they have measured, it yields apart: this takes no time, and it receives what is sensed at
+the same tick."""
 
 
 def is_instant(commands: tuple[Command, ...]) -> bool:
-    """Return whether commands take no time: they only say that actions begin or end."""
-    return bool(commands) and not [each for each in commands if not isinstance(each, (Begin, End))]
+    """Return whether commands take no time: they only say that actions begin or end, or what they have
+    measured."""
+    return bool(commands) and not [each for each in commands if not isinstance(each, (Begin, Measured, End))]

@@ -6,15 +6,19 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.geometry.rotations import turned
+from prolepsis.geometry.rotations import angle_between, turned
 from prolepsis.geometry.shape import Triple
 from prolepsis.log.things import Thing
 from prolepsis.robots.commands import HandSense, HandTarget
 from prolepsis.robots.effectors.gap import Gap
 from prolepsis.robots.effectors.gripper_control import Drive, GripperControl
 from prolepsis.robots.hand import Hand
+from prolepsis.robots.touch import on_fingers, whole_of
 from prolepsis.scene.running import Running
 from prolepsis.system.mujoco import mujoco
+
+BUMP = 8.0
+"""Force on the palm [N] that tells of a collision."""
 
 
 class FlyingHand:
@@ -23,11 +27,12 @@ class FlyingHand:
     def __init__(self, state: Running, thing: Thing, hand: Hand) -> None:
         """Take over the hand that ``thing`` is."""
         self.name = thing.name
-        self._first = thing.orientation
+        self._start, self._first = thing.position, thing.orientation
         self._stiffness = hand.position_gain
         self._lags = np.repeat([hand.velocity_gain / hand.position_gain, hand.rotation_damping / hand.rotation_gain], 3)
         self._target = HandTarget(hand=self.name, offset=(0.0, 0.0, 0.0))
         self._set: HandTarget | None = None
+        self._bump = ""
         self._turned = ((0.0, 0.0, 0.0), thing.orientation)
         drive = Drive(
             motor=f"{self.name}/gap",
@@ -47,10 +52,12 @@ class FlyingHand:
         self.gripper.bind(state)
         self._set = None
         model: Any = state.model
-        self._model, self._data = model, state.data
+        self._state, self._model, self._data = state, model, state.data
         joints = ("x", "y", "z", "yaw", "pitch", "roll")
         self._servos = np.array([model.actuator(f"{self.name}/{joint}").id for joint in joints])
         self._palm = int(model.body(f"{self.name}/palm").id)
+        self._fingers = [int(model.body(f"{self.name}/{side}_finger").id) for side in ("left", "right")]
+        self._own = frozenset((self._palm, *self._fingers))
 
     def accept(self, command: object) -> None:
         """Take a command for this hand."""
@@ -72,6 +79,10 @@ class FlyingHand:
     def measure(self, forces: list[tuple[int, int, int, float]]) -> None:
         """Read the pressure of the pads from the normal forces of the last substep, as ``Running`` gives them."""
         self.gripper.measure(forces)
+        self._bump = ""
+        for _, first, second, force in forces:
+            if force > BUMP and self._palm in (first, second):
+                self._bump = whole_of(self._state, second if first == self._palm else first)
 
     def sense(self) -> HandSense:
         """Return what the hand knows of itself."""
@@ -91,7 +102,23 @@ class FlyingHand:
             pad_force=self.gripper.pad_force,
             motion=self.gripper.motion,
             stiffness=self._stiffness,
+            held=self._held,
+            fingers=self._on_fingers,
+            bump=self._bump,
+            away=self._away,
         )
+
+    def _away(self) -> tuple[float, float]:
+        goal = np.add(self._start, self._target.offset)
+        wanted = turned(self._first, self._target.rotation)
+        distance = float(np.linalg.norm(goal - self._data.xpos[self._palm]))
+        return distance, float(angle_between(np.array(wanted), self._data.xquat[self._palm]))
+
+    def _held(self) -> tuple[str, ...]:
+        return self.gripper.held(self._own, self._data.xpos[self._palm])
+
+    def _on_fingers(self) -> dict[str, float]:
+        return on_fingers(self._state, self._fingers, self._own)
 
     def _velocity(self) -> Triple:
         result = np.zeros(6)

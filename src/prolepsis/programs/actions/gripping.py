@@ -8,8 +8,10 @@ from prolepsis.log.things import Thing
 from prolepsis.programs.action import FORCE, HAND, HELD, ParameterSpec, action
 from prolepsis.programs.actions.motion import HEIGHT, SHORT, open_to, stay, within_workspace
 from prolepsis.programs.moving.grasping import CLEARANCE, grasp_as_turned
+from prolepsis.programs.moving.holding import holding
+from prolepsis.programs.moving.reached import compared
 from prolepsis.programs.nesting import nested
-from prolepsis.robots.commands import Behaviour, CloseGripper, Sense
+from prolepsis.robots.commands import ActionFailedError, Behaviour, CloseGripper, Measured, Sense
 from prolepsis.scene.scene import Scene
 
 SLOWEST, FASTEST = 0.002, 0.006
@@ -18,6 +20,8 @@ SPEED_PER_FORCE = 0.003
 """Guarded speed for each newton commanded [m/s/N], between those two: a weak grasp touches more gently."""
 TIMEOUT = 8.0
 """A closing that has not ended by then has nothing to hold on to [s]."""
+FORCE_WITHIN = 0.1
+"""The pads have got to their force within this share of it [1]."""
 
 
 def close_from(hand: Thing, width: float, force: float, sense: Sense) -> Behaviour:
@@ -30,11 +34,31 @@ def close_from(hand: Thing, width: float, force: float, sense: Sense) -> Behavio
     return sense
 
 
+def felt(hand: Thing, force: float, sense: Sense) -> Behaviour:
+    """Say what lies between the pads once they have closed, and whether they have got to the force [N].
+
+    Raises:
+        ActionFailedError: If they hold something, but have not come to rest.
+    """
+    here = sense.hands[hand.name]
+    held = here.held()
+    sense = yield (Measured(evidence={"between": " and ".join(held) or "nothing"}),)
+    if not held:
+        return sense
+    if here.motion != 0:
+        raise ActionFailedError("timed_out", f"{hand.name} does not come to rest on {' and '.join(held)}")
+    return (yield from compared(sense, "pad_force", here.pad_force, force, FORCE_WITHIN, "N"))
+
+
 @action(HAND, FORCE)
 def close(scene: Scene, sense: Sense, *, hand: Thing, force: float) -> Behaviour:
     """Close the gripper slowly until contact, then raise the force to the given one."""
     del scene
-    return (yield from close_from(hand, hand.quantities["maxOpening"], force, sense))
+    sense = yield from close_from(hand, hand.quantities["maxOpening"], force, sense)
+    if not sense.hands[hand.name].held():
+        # What it should hold has not been said: a fist may be what is wanted, so that the plan goes on.
+        yield (Measured(evidence={"reason": f"between the pads of {hand.name} is nothing"}, outcome="missed"),)
+    return (yield from felt(hand, force, sense))
 
 
 @action(HAND, HELD, FORCE, HEIGHT, SHORT, check=within_workspace)
@@ -49,15 +73,22 @@ def grasp(
         aside = {name: value for name, value in (("height", height), ("short", short)) if value}
         sense = yield from nested("reach", scene, sense, hand=hand, object=object, **aside)
         pose = grasp_as_turned(hand, object, sense, height)
-    return (yield from close_from(hand, pose.width + CLEARANCE, force, sense))
+    sense = yield from close_from(hand, pose.width + CLEARANCE, force, sense)
+    sense = yield from felt(hand, force, sense)
+    held = sense.hands[hand.name].held()
+    if object.name not in held:
+        between = " and ".join(held) or "nothing"
+        raise ActionFailedError("missed", f"between the pads of {hand.name} is {between}, not {object.name}")
+    return sense
 
 
 @action(HAND, HELD, FORCE, ParameterSpec(name="duration", kind="duration", default=1.0))
 def squeeze(scene: Scene, sense: Sense, *, hand: Thing, object: Thing, force: float, duration: float) -> Behaviour:
     """Press what the hand holds with the given force for a while, then hold it as before."""
-    del scene, object
-    before = sense.hands[hand.name].grip
+    del scene
+    before = holding(hand, object, sense).grip
     sense = yield from close_from(hand, hand.quantities["maxOpening"], force, sense)
+    sense = yield from felt(hand, force, sense)
     sense = yield from stay(duration, sense)
     if before > 0.0:
         sense = yield from close_from(hand, hand.quantities["maxOpening"], before, sense)

@@ -9,7 +9,7 @@ import numpy as np
 from prolepsis.geometry.shape import FloatArray, Quaternion, Triple, triple
 from prolepsis.log.things import Thing
 from prolepsis.programs.action import HAND, ParameterSpec, action
-from prolepsis.programs.moving.following import follow, go
+from prolepsis.programs.moving.following import follow, go, refuse_bump, unhindered
 from prolepsis.programs.moving.grasping import (
     LEAST_MARGIN,
     MARGIN,
@@ -21,6 +21,7 @@ from prolepsis.programs.moving.grasping import (
     least_width,
 )
 from prolepsis.programs.moving.profile import PEAK_ACCELERATION, PEAK_SPEED, least_jerk
+from prolepsis.programs.moving.reached import arrived
 from prolepsis.robots.commands import ActionFailedError, Behaviour, HandTarget, JointPath, OpenGripper, Sense
 from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.scene.extent import extent_along
@@ -33,6 +34,8 @@ TICK = 1.0e-3
 """Period of the commands [s]."""
 OPENING_SPEED = 0.2
 """Speed of the gap when nothing is held [m/s]."""
+OPENING_SLACK = 2.0
+"""An opening that takes longer than it should by this is blocked [s]."""
 
 SPEED = ParameterSpec(name="speed", kind="speed", default=0.25)
 ACCELERATION = ParameterSpec(name="acceleration", kind="acceleration", default=1.0)
@@ -67,7 +70,8 @@ def travel(hand: Thing, sense: Sense, displacement: Triple, acceleration: float,
     for step, velocity in line(displacement, acceleration, speed):
         offset = (start[0] + step[0], start[1] + step[1], start[2] + step[2])
         sense = yield (HandTarget(hand=hand.name, offset=offset, velocity=velocity, rotation=rotation),)
-    return sense
+        refuse_bump(hand, sense)
+    return (yield from arrived(hand, sense))
 
 
 def travel_over(hand: Thing, sense: Sense, displacement: FloatArray, acceleration: float, speed: float) -> Behaviour:
@@ -87,12 +91,28 @@ def stay(duration: float, sense: Sense) -> Behaviour:
 
 
 def open_to(hand: Thing, width: float, sense: Sense) -> Behaviour:
-    """Move the pads to a gap of ``width`` [m] and wait until they are there."""
-    del sense
+    """Move the pads to a gap of ``width`` [m] and wait until they are there.
+
+    Raises:
+        ActionFailedError: If they do not get there in time; what presses on the fingers then is in the way.
+    """
+    deadline = sense.time + abs(width - sense.hands[hand.name].opening) / OPENING_SPEED + OPENING_SLACK
     sense = yield (OpenGripper(hand=hand.name, width=width, speed=OPENING_SPEED),)
     while sense.hands[hand.name].motion != 0:
+        if sense.time > deadline:
+            raise _blocked(hand, width, sense)
         sense = yield ()
     return sense
+
+
+def _blocked(hand: Thing, width: float, sense: Sense) -> ActionFailedError:
+    """Return why the pads of a hand do not get to a gap of ``width`` [m]."""
+    here = sense.hands[hand.name]
+    gap = f"its pads are {here.opening * 1000:.0f} mm apart instead of {width * 1000:.0f} mm"
+    against = " and ".join(sorted(here.fingers()))
+    if against:
+        return ActionFailedError("in_collision", f"{hand.name}: {gap}, its fingers are pressed against {against}")
+    return ActionFailedError("timed_out", f"{hand.name}: {gap}")
 
 
 def within_workspace(scene: Scene, *, hand: Thing, object: Thing, **_: object) -> None:
@@ -132,7 +152,7 @@ def reach(
     for part in (first, displacement - first):
         if np.linalg.norm(part) > ARRIVED:
             step = (float(part[0]), float(part[1]), float(part[2]))
-            sense = yield from travel(hand, sense, step, 2.0, speed)
+            sense = yield from unhindered(hand, travel(hand, sense, step, 2.0, speed), {object.name})
     return sense
 
 
@@ -188,8 +208,9 @@ def carry(
 @action(HAND, ParameterSpec(name="duration", kind="duration"))
 def hold(scene: Scene, sense: Sense, *, hand: Thing, duration: float) -> Behaviour:
     """Keep the hand where it is and its grip as it is."""
-    del scene, hand
-    return (yield from stay(duration, sense))
+    del scene
+    sense = yield from stay(duration, sense)
+    return (yield from arrived(hand, sense))
 
 
 @action(ParameterSpec(name="duration", kind="duration"))

@@ -114,7 +114,8 @@ def peel(
     tried: set[str] = set()
     for done in range(round(tries) + 1):
         off = before - len(shelled.covered(sense))
-        sense = yield (Measured(evidence={"pieces": before, "pieces_off": off, "tries": done}),)
+        yield (Measured(evidence={"pieces": before, "pieces_off": off, "tries": done}),)
+        sense = yield ()
         if done == round(tries) or math.dist(sense.position(shelled.kernel.name), held.middle) > LOST:
             break
         found = _pinch(other, sense, shelled, held, reference, tried)

@@ -13,6 +13,7 @@ from prolepsis.programs.actions.motion import stay, travel, travel_over
 from prolepsis.programs.moving.following import follow
 from prolepsis.programs.moving.grasping import as_seen
 from prolepsis.programs.moving.holding import free_pose, move_held, spots
+from prolepsis.programs.moving.reached import compared
 from prolepsis.robots.commands import ActionFailedError, Behaviour, HandTarget, Measured, Sense
 from prolepsis.scene.extent import middle, support
 from prolepsis.scene.running import TICK
@@ -35,6 +36,8 @@ BRING_SPEED, BRING_ACCELERATION = 0.3, 1.0
 """With which something is brought over something else [m/s, m/s^2]."""
 RATE = 8.0
 """Rate at which an error of the force fades [1/s]."""
+SPEED_WITHIN, PUSH_WITHIN = 0.1, 0.05
+"""A blow has its speed, a push its force within this share of it [1]."""
 RAMP_TIME, HOLD_TIME = 1.0, 0.5
 """A push grows to its force in this time, and is held for this time [s]."""
 
@@ -80,6 +83,7 @@ def hit(
         Measured(evidence={"speed": met}),
         HandTarget(hand=hand.name, offset=here.offset, rotation=here.rotation),
     )
+    sense = yield from compared(sense, "speed", met, speed, SPEED_WITHIN, "m/s")
     sense = yield from stay(0.05, sense)
     return (yield from travel(hand, sense, (0.0, 0.0, BACK), 2.0, BACK_SPEED))
 
@@ -165,4 +169,4 @@ def push_down(hand: Thing, sense: Sense, force: float, duration: float) -> Behav
         position: Triple = (start.offset[0], start.offset[1], start.offset[2] - depth)
         target = HandTarget(hand=hand.name, offset=position, velocity=(0.0, 0.0, -sinking), rotation=start.rotation)
         sense = yield (target, Measured(evidence={"force": greatest}))
-    return sense
+    return (yield from compared(sense, "force", greatest, force, PUSH_WITHIN, "N"))

@@ -10,9 +10,12 @@ import numpy as np
 from prolepsis.geometry.shape import FloatArray, Triple, triple
 from prolepsis.log.things import Thing
 from prolepsis.programs.moving.profile import least_jerk, least_time
+from prolepsis.programs.moving.reached import arrived
 from prolepsis.robots.commands import ActionFailedError, ArmSense, ArmTarget, Behaviour, HandTarget, JointPath, Sense
 from prolepsis.scene.running import TICK
 
+BUMP = 8.0
+"""Force on the fingers that tells of a collision [N]."""
 KNOTS = 40
 """Ticks between two positions at which the joints of a given course are computed."""
 
@@ -34,7 +37,8 @@ def follow(hand: Thing, sense: Sense, offsets: FloatArray, rotations: FloatArray
             sense = yield (
                 HandTarget(hand=hand.name, offset=offset, velocity=velocity, rotation=rotation, angular_velocity=rate),
             )
-        return sense
+            refuse_bump(hand, sense)
+        return (yield from arrived(hand, sense))
     knots = np.unique(np.append(np.arange(KNOTS - 1, len(offsets), KNOTS), len(offsets) - 1))
     path = here.arm.path(offsets[knots], rotations[knots], loose=loose)
     _refuse(hand, path)
@@ -49,8 +53,9 @@ def follow(hand: Thing, sense: Sense, offsets: FloatArray, rotations: FloatArray
     poses = zip(_triples(offsets[indices]), _triples(rotations[indices]), strict=True)
     for coordinates, speeds, (offset, rotation) in zip(joints, rates, poses, strict=True):
         sense = yield (_target(hand, coordinates, speeds, offset, rotation),)
-        _refuse_bump(hand, sense)
-    return (yield (_target(hand, joints[-1], 0 * rates[-1], triple(offsets[-1]), triple(rotations[-1])),))
+        refuse_bump(hand, sense)
+    sense = yield (_target(hand, joints[-1], 0 * rates[-1], triple(offsets[-1]), triple(rotations[-1])),)
+    return (yield from arrived(hand, sense))
 
 
 def go(
@@ -70,8 +75,27 @@ def go(
         duration = least_time(np.abs(step), arm.speeds, arm.accelerations)
         for share, rate in least_jerk(duration):
             sense = yield (_target(hand, start + share * step, rate * step, offset, rotation),)
-            _refuse_bump(hand, sense)
-    return sense
+            refuse_bump(hand, sense)
+    return (yield from arrived(hand, sense))
+
+
+def unhindered(hand: Thing, moving: Behaviour, ignoring: Collection[str]) -> Behaviour:
+    """Carry out a movement as long as nothing but what is ignored presses on the hand's fingers.
+
+    Raises:
+        ActionFailedError: If something does.
+    """
+    made = next(moving)
+    while True:
+        sense = yield made
+        hit = [name for name, force in sense.hands[hand.name].fingers().items() if force > BUMP]
+        if not {*ignoring}.issuperset(hit):
+            against = " and ".join(sorted({*hit} - {*ignoring}))
+            raise ActionFailedError("in_collision", f"{hand.name}: its fingers are pressed against {against}")
+        try:
+            made = moving.send(sense)
+        except StopIteration as ended:
+            return ended.value
 
 
 def _spline(times: FloatArray, points: FloatArray) -> Callable[..., FloatArray]:
@@ -111,7 +135,8 @@ def _refuse(hand: Thing, path: JointPath) -> None:
         raise ActionFailedError(path.problem, f"{hand.name}: {path.detail}")
 
 
-def _refuse_bump(hand: Thing, sense: Sense) -> None:
+def refuse_bump(hand: Thing, sense: Sense) -> None:
+    """End an action if the palm of its hand, or the arm that carries it, is pressed against something."""
     bump = sense.hands[hand.name].bump
     if bump:
-        raise ActionFailedError("in_collision", f"{hand.name}: its arm is pressed against {bump}")
+        raise ActionFailedError("in_collision", f"{hand.name}: it is pressed against {bump}")

@@ -108,8 +108,10 @@ def holding(hand: Thing, held: Thing, sense: Sense) -> HandSense:
         ActionFailedError: If it does not.
     """
     here = sense.hands[hand.name]
-    if here.grip == 0.0 or here.pad_force == 0.0:
-        raise ActionFailedError("not_held", f"{hand.name} does not hold {held.name}")
+    between = here.held()
+    if here.grip == 0.0 or held.name not in between:
+        instead = f": between its pads is {' and '.join(between) or 'nothing'}" if here.grip else ""
+        raise ActionFailedError("not_held", f"{hand.name} does not hold {held.name}{instead}")
     return here
 
 

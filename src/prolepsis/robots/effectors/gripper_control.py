@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Any
 
+from prolepsis.geometry.shape import FloatArray
 from prolepsis.robots.commands import CloseGripper, Command, OpenGripper
 from prolepsis.robots.effectors.gap import Gap
+from prolepsis.robots.touch import between_pads
 from prolepsis.scene.running import Running
 
 TOUCH_FORCE = 0.6
@@ -82,7 +85,7 @@ class GripperControl:
     def bind(self, state: Running) -> None:
         """Look the gripper up in a model that is new."""
         model: Any = state.model
-        self._model, self._data = model, state.data
+        self._state, self._model, self._data = state, model, state.data
         self._motor = int(model.actuator(self._drive.motor).id)
         self._tendon = int(model.tendon(self._drive.tendon).id)
         self._pads = [int(model.body(pad).id) for pad in self._drive.pads]
@@ -189,3 +192,7 @@ class GripperControl:
             if second in pads:
                 pads[second] += force
         self.pad_force = min(pads.values())
+
+    def held(self, own: Collection[int], middle: FloatArray) -> tuple[str, ...]:
+        """Return the wholes that lie between the pads, as ``EffectorControl`` has it."""
+        return between_pads(self._state, self._pads, own, middle)

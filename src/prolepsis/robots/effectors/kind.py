@@ -4,9 +4,11 @@ and the register of all kinds."""
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Collection
 from dataclasses import MISSING, fields
 from typing import Any, Generic, Protocol, TypeVar
 
+from prolepsis.geometry.shape import FloatArray
 from prolepsis.robots.commands import Command
 from prolepsis.robots.effectors.gap import Gap
 from prolepsis.scenario.file import read_table, unknown_key
@@ -47,6 +49,13 @@ class EffectorControl(Protocol):
 
     def measure(self, forces: list[tuple[int, int, int, float]]) -> None:
         """Read what the pads feel from the normal forces of the last substep, as ``Running`` gives them."""
+        ...
+
+    def held(self, own: Collection[int], middle: FloatArray) -> tuple[str, ...]:
+        """Return the wholes that it holds, in the order of names: never what is one of its ``own`` bodies.
+
+        ``middle`` is where what it holds would have its middle, in the world [m], shape (3,).
+        """
         ...
 
 

@@ -1,0 +1,28 @@
+"""Whether what an action aims at was reached, within a tolerance: a hand its place, a force or a speed its size."""
+
+from __future__ import annotations
+
+from prolepsis.log.things import Thing
+from prolepsis.robots.commands import Behaviour, Measured, Sense
+
+PLACE_WITHIN = 0.01
+"""A hand is where it should be within this [m]: a free one whose base pushes with all its force is 7.5 mm away."""
+TURN_WITHIN = 0.05
+"""It is turned as it should be within this [rad]."""
+
+
+def arrived(hand: Thing, sense: Sense) -> Behaviour:
+    """Say so if a hand is not where it should be by now."""
+    distance, angle = sense.hands[hand.name].away()
+    if distance > PLACE_WITHIN or angle > TURN_WITHIN:
+        reason = f"{hand.name} is {distance * 1000:.0f} mm and {angle:.2f} rad from where it should be"
+        sense = yield (Measured(evidence={"away": distance, "reason": reason}, outcome="not_reached"),)
+    return sense
+
+
+def compared(sense: Sense, name: str, value: float, wanted: float, within: float, unit: str) -> Behaviour:
+    """Say so if what was measured differs from what was wanted by more than ``within``, a share of that [1]."""
+    if abs(value - wanted) <= within * wanted:
+        return sense
+    reason = f"{value:.3g} of {wanted:.4g} {unit}"
+    return (yield (Measured(evidence={name: value, "reason": reason}, outcome="not_reached"),))
