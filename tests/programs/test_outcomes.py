@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import get_args
@@ -10,12 +11,14 @@ import pytest
 from tests.programs.test_programs import FakeHand
 from tests.scenes import run, scene
 
+from prolepsis.engine import simulation
 from prolepsis.log.log import Log
 from prolepsis.log.outcomes import GOES_ON, OUTCOMES, Outcome
 from prolepsis.programs.actions.striking import push_down
 from prolepsis.programs.nesting import as_event
 from prolepsis.robots.commands import Command, End, Sense
 from prolepsis.robots.hand import HAND
+from prolepsis.terms.errors import Note, PlanError
 
 DOCS = Path(__file__).parents[2] / "docs"
 
@@ -95,6 +98,14 @@ def test_a_hand_that_is_held_up_has_not_reached_its_place() -> None:
     assert "mm and 0.0" in reason
     # It is still held up; the plan goes on all the same.
     assert second in ("done", "not_reached")
+
+
+def test_a_plan_that_goes_on_and_on_says_so_and_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(simulation, "LONG", 0.02)
+    monkeypatch.setattr(simulation, "LONGEST", 0.05)
+    told = re.escape("plan: wait(2.0) has not ended after 0.02 s; without a duration it is given up at 0.05 s")
+    with pytest.warns(Note, match=told), pytest.raises(PlanError, match="has not ended after 0.05 s"):
+        run(":floor a :Floor .", "sequence([wait(0.01), wait(2.0)])")
 
 
 class Yielding(FakeHand):

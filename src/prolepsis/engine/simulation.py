@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -29,13 +30,15 @@ from prolepsis.scene.kind import Controller
 from prolepsis.scene.running import MAX_STEP, TICK
 from prolepsis.system.mujoco import mujoco
 from prolepsis.system.threads import one_thread
-from prolepsis.terms.errors import InvalidSimulationError, PlanError, ScenarioError
-from prolepsis.terms.terms import Term
+from prolepsis.terms.errors import InvalidSimulationError, Note, PlanError, ScenarioError, brief_list
+from prolepsis.terms.terms import Term, format_value
 
 SETTLING = 0.5
 """A run without a given duration goes on for this long after its program has ended [s]."""
 LONGEST = 600.0
 """No run is longer than this [s]; each second of it takes about one to compute."""
+LONG = 60.0
+"""A run without a given duration that is longer than this [s] says so, for it may never end."""
 THIN = 0.003
 """What is thinner than this [m] is named as the reason when something has gone through it."""
 MAX_SPEED = 200.0
@@ -106,7 +109,10 @@ def simulate(
         elif ended_at is not None and tick >= ended_at + round(SETTLING / TICK):
             break
         elif tick >= round(LONGEST / TICK):
-            raise PlanError(f"plan: it has not ended after {LONGEST:g} s; shorten it or give a duration")
+            raise PlanError(f"plan: {_going(running)} not ended after {LONGEST:g} s; shorten it or give a duration")
+        elif tick == round(LONG / TICK):
+            going = f"{_going(running)} not ended after {LONG:g} s"
+            warnings.warn(f"plan: {going}; without a duration it is given up at {LONGEST:g} s", Note, 2)
         if progress is not None and tick % 100 == 0:
             progress(tick * TICK)
 
@@ -205,6 +211,12 @@ def _senses(state: State, controls: Controls) -> Callable[[float], Sense]:
         )
 
     return sensed
+
+
+def _going(running: Mapping[Term, Sequence[Action]]) -> str:
+    """Return what goes on, to be continued with what it has not done."""
+    terms = [format_value(term) for term, begun in running.items() if begun]
+    return f"{brief_list(terms)} {'have' if len(terms) > 1 else 'has'}" if terms else "it has"
 
 
 def _note(command: Command, tick: int, running: dict[Term, list[Action]], actions: list[Action]) -> None:
