@@ -126,7 +126,6 @@ def rows(told: Sequence[Told], dt: float) -> list[tuple[str, str, str, str, str]
 
     decimals = ticks_of(dt).decimals
     facts = [
-        (f"{each.start:.{decimals}f}", f"{each.end:.{decimals}f}", each.kind, each.what, each.evidence)
-        for each in told
+        (f"{each.start:.{decimals}f}", f"{each.end:.{decimals}f}", each.kind, each.what, each.evidence) for each in told
     ]
     return [("start[s]", "end[s]", "kind", "what", "evidence"), *facts]

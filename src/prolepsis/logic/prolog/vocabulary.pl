@@ -95,6 +95,7 @@ evidence_unit(by, '').
 evidence_unit(command, 'N').
 evidence_unit(depth, m).
 evidence_unit(distance, m).
+evidence_unit(ends, '').
 evidence_unit(fill, '1').
 evidence_unit(force, 'N').
 evidence_unit(fraction, '1').
