@@ -42,6 +42,7 @@ if TYPE_CHECKING:
         MissingToolError,
         ProlepsisError,
     )
+    from prolepsis.terms.json_values import json_value
     from prolepsis.terms.reader import parse_term
     from prolepsis.terms.terms import Term, Variable, format_value
 
@@ -56,6 +57,7 @@ _HOMES = {
     "prolepsis.campaigns.outcome": ("Grasp", "judge_grasp"),
     "prolepsis.projection": ("Projection", "project"),
     "prolepsis.scenario.scenario": ("Parameter", "Scenario"),
+    "prolepsis.terms.json_values": ("json_value",),
     "prolepsis.terms.reader": ("parse_term",),
     "prolepsis.terms.terms": ("Term", "Variable", "format_value"),
     "prolepsis.geometry.shape": ("Geom", "Shape"),
@@ -86,6 +88,7 @@ __all__ = [
     "Variable",
     "format_value",
     "judge_grasp",
+    "json_value",
     "parse_term",
     "project",
     "read_log",

@@ -7,8 +7,9 @@ import os
 from importlib import import_module
 from typing import Any
 
-from prolepsis.commands.output import add_command, bindings, json_line, plain, warn_unchecked
+from prolepsis.commands.output import add_command, bindings, json_line, warn_unchecked
 from prolepsis.terms.errors import InputError
+from prolepsis.terms.json_values import json_value
 
 EXAMPLE = """\
   prolepsis ask out/drop 'holds(F, T), objOf(F, egg1)'
@@ -23,7 +24,11 @@ def add_to(commands: Any) -> None:
     parser = add_command(commands, "ask", "answer a Prolog goal from a saved projection", EXAMPLE, run)
     parser.add_argument("folder", metavar="DIR", help="folder that `prolepsis project --out` saved")
     parser.add_argument("goal", metavar="GOAL", help="one goal; exit status 1 if it has no answer")
-    parser.add_argument("--json", action="store_true", help="print one JSON object per answer")
+    parser.add_argument(
+        "--json",
+        action="store_true",
+        help="print one JSON object per answer; an interval is an object with start and end [s]",
+    )
     parser.add_argument(
         "--require-confinement",
         action="store_true",
@@ -57,7 +62,7 @@ def run(given: argparse.Namespace) -> int:
     warn_unchecked(timeline.domain.unchecked)
     for answer in answers:
         if given.json:
-            print(json_line({name: plain(value) for name, value in answer.items()}))
+            print(json_line(json_value(answer)))
         else:
             print(bindings(answer))
     if not answers and not given.json:

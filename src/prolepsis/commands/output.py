@@ -136,15 +136,6 @@ def json_line(row: Mapping[str, Any]) -> str:
     return json.dumps(row, ensure_ascii=not known)
 
 
-def plain(value: Value) -> Any:
-    """Return an answer's value for JSON: numbers, names and lists as they are, terms as Prolog writes them."""
-    from prolepsis.terms.terms import format_value
-
-    if isinstance(value, tuple):
-        return [plain(item) for item in value]
-    return value if isinstance(value, str | int | float) else format_value(value)
-
-
 def bindings(answer: Mapping[str, Value]) -> str:
     """Return an answer for people, ``F = broken(egg1), T = 0.4-2.0``; of a goal without variables, ``yes``."""
     from prolepsis.terms.terms import format_value

@@ -11,13 +11,13 @@ from prolepsis.commands.output import (
     add_progress,
     bindings,
     json_line,
-    plain,
     progress_line,
     settings,
     table,
     warn_unchecked,
 )
 from prolepsis.terms.errors import InputError
+from prolepsis.terms.json_values import json_value
 
 if TYPE_CHECKING:
     from prolepsis.campaigns.campaign import Outcomes, Row
@@ -147,7 +147,7 @@ def _plain(row: Row) -> dict[str, Any]:
             "bonds_broken": grasp.bonds_broken,
         }
     if row.answers is not None:
-        result["answers"] = [{name: plain(value) for name, value in answer.items()} for answer in row.answers]
+        result["answers"] = [{name: json_value(value) for name, value in answer.items()} for answer in row.answers]
     if row.error is not None:
         result["error"] = row.error
     return result
