@@ -22,6 +22,7 @@ from prolepsis.logic.process import ProcessLost, PrologProcess
 from prolepsis.logic.refusals import refusal, shown
 from prolepsis.logic.rules import read_rules, rule_refusal
 from prolepsis.logic.run_file import write_run
+from prolepsis.logic.undone import undone_note
 from prolepsis.terms.errors import GoalError, GoalLimitError, InputError, Note, brief
 from prolepsis.terms.reader import parse_term
 from prolepsis.terms.terms import Value, format_atom, format_value
@@ -168,8 +169,8 @@ class Session:
             what = "a value is too large or too deep to be told whole; ... stands for the rest"
             warnings.warn(f"{what}: {shown(goal)}", Note, 3)
         answers = _answers(body, time.monotonic() + time_limit + GRACE, goal)
-        note = open_note(answers, open_ends, goal)
-        if note:
+        notes = [open_note(answers, open_ends, goal), "" if answers else undone_note(timeline, goal)]
+        for note in filter(None, notes):
             warnings.warn(note, Note, 3)
         return answers
 

@@ -1,0 +1,35 @@
+"""What is said of a "no" when an action that it depends on did not do what it aimed at."""
+
+from __future__ import annotations
+
+import re
+
+from prolepsis.log.outcomes import OUTCOMES
+from prolepsis.log.timeline import Timeline
+from prolepsis.logic.refusals import shown
+from prolepsis.terms.errors import brief, brief_list
+from prolepsis.terms.terms import format_value
+
+FINE = ("done", "unfinished")
+"""Outcomes of which nothing need be said here: what a log cuts off is told as an open end."""
+
+
+def undone_note(timeline: Timeline, goal: str) -> str:
+    """Return the note on a goal without answers, empty if it needs none: what was not done proves nothing.
+
+    Args:
+        timeline: What was asked.
+        goal: The goal as it was asked; an action bears on it if it names one of the action's things.
+    """
+    named = {*re.findall(r"\w+", goal)}
+    told: list[str] = []
+    for fact in timeline.facts:
+        outcome = fact.evidence.get("outcome")
+        if (
+            outcome in OUTCOMES
+            and outcome not in FINE
+            and named & {each for each in fact.args if isinstance(each, str)}
+        ):
+            reason = fact.evidence.get("reason")
+            told.append(f"{brief(format_value(fact.term))} was {outcome}" + (f" ({brief(reason)})" if reason else ""))
+    return f"no, but {brief_list(told)}: {shown(goal)}" if told else ""
