@@ -82,6 +82,9 @@ class Adhesion(Controller):
     def bind(self, state: Running) -> None:
         """Look up its joints in a model that is new."""
         self._numbers = state.joint_numbers(self)
+        self._know_bodies(state)
+
+    def _know_bodies(self, state: Running) -> None:
         self._bodies = {thing: body for body, thing in enumerate(state.body_thing.tolist()) if thing >= 0}
         self._turned = {}
 
@@ -141,6 +144,7 @@ class Adhesion(Controller):
             on_first, on_second = self._points(state, hold)
             joints.append(PointJoint(first=first, second=second, point_on_first=on_first, point_on_second=on_second))
         self._numbers = state.join(self, joints)
+        self._know_bodies(state)
         for number, hold in zip(self._numbers, self._joined, strict=True):
             state.data.eq_active[number] = not hold.loose
         self._report(state)
