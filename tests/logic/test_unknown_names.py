@@ -62,6 +62,7 @@ def session() -> Iterator[Session]:
         ("holds(3, T)", "no fluent 3"),
         ("evidence(brocken(X), T, N, V)", "no fluent or event brocken/1"),
         ("evidence(broken(X), T, forse, V)", "no evidence named forse .*; did you mean force"),
+        ("ongoing(brocken(X))", "no fluent or event brocken/1"),
         ("instance_of(eggg1, C)", "no individual named eggg1"),
         ("instance_of(X, 'Eggg')", "no class named 'Eggg' .*; did you mean 'Egg'"),
         ("has_part(egg1, eggshel1)", "no individual named eggshel1 .*; did you mean eggshell1"),

@@ -27,7 +27,7 @@
 :- use_module(asking, []).
 :- use_module(timeline, [in/2]).
 :- use_module(allen).
-:- use_module(open_ends).
+:- use_module(open_ends, []).
 :- use_module(query).
 
 :- multifile

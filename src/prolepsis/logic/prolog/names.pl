@@ -17,7 +17,7 @@
 :- use_module(chronicles).
 :- use_module(guard).
 :- use_module(runs).
-:- use_module(timeline, []).
+:- use_module(timeline, [same_type/2]).
 :- use_module(vocabulary).
 
 :- dynamic declared_event/2, declared_name/1.
@@ -39,6 +39,7 @@ takes(objOf(fact, individual)).
 takes(evidence(fact, ?, evidence, ?)).
 takes(fact(run, ?, type(fact), ?, ?, ?)).
 takes(in(run, ?)).
+takes(ongoing(fact)).
 takes(instance_of(individual, class)).
 takes(has_part(individual, individual)).
 takes(value(individual, property, ?)).
@@ -229,7 +230,7 @@ type_name(Kind, Name) :- declared(Kind, Name, _).
 
 known_type_spelled(Kind, Name) :-
     type_name(Kind, Known),
-    timeline:same_type(Name, Known).
+    same_type(Name, Known).
 
 class_of(Run, Name) :- Run:instance(_, Name).
 class_of(Run, Name) :- Run:subclass(Name, _).

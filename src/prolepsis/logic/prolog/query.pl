@@ -11,4 +11,3 @@
 :- use_module(asking).
 :- use_module(timeline, [in/2]).
 :- use_module(allen).
-:- use_module(open_ends, [ongoing/1]).

@@ -89,7 +89,9 @@ fact_type(wiping, 2, event).
 
 %   evidence_unit(Name, Unit): what evidence is called; the unit of a text is ''.
 
+evidence_unit(away, m).
 evidence_unit(behind, rad).
+evidence_unit(between, '').
 evidence_unit(bonds, '1').
 evidence_unit(by, '').
 evidence_unit(command, 'N').
