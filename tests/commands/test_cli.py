@@ -338,7 +338,7 @@ def test_ask_starts_without_physics_and_ontology(saved: Path) -> None:
     code = (
         "import sys; from prolepsis.cli import main; "
         f"status = main(['ask', {str(saved)!r}, 'holds(broken(egg1), _)']); "
-        "print(sorted({'mujoco', 'rdflib', 'pydantic', 'pyarrow', 'scipy'} & set(sys.modules)), status)"
+        "print(sorted({'mujoco', 'rdflib', 'pydantic', 'pyarrow', 'scipy', 'numpy'} & set(sys.modules)), status)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "yes\n[] 0\n"

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
-from prolepsis.log.things import Thing
+if TYPE_CHECKING:  # A question reads domains, and has no need of shapes.
+    from prolepsis.log.things import Thing
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
