@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import get_args
 
 import pytest
-from tests.programs.test_programs import FakeHand
-from tests.scenes import run, scene
+from tests.programs.test_programs import FakeHand, carried_out
+from tests.scenes import EGG_IN_HAND, run, scene
 
 from prolepsis.engine import simulation
 from prolepsis.log.log import Log
@@ -89,6 +89,19 @@ def test_what_is_in_the_way_of_a_free_hand_ends_its_reaching(hand: str, reason: 
     gripper = f" :hand1 a :Gripper ; :x {x} ; {hand} ; :opening 0.085 ."
     log = run(BLOCK + ":height 0.012 ." + wall + gripper, "grasp(hand1, block1, 10)")
     assert ended(log) == [("reach", "in_collision", reason), ("grasp", "in_collision", reason)]
+
+
+@pytest.mark.parametrize(("bump", "outcome"), [("egg1", "done"), ("table1", "in_collision")])
+def test_what_a_free_hand_reaches_for_is_not_in_its_way(bump: str, outcome: str) -> None:
+    class Bumping(FakeHand):
+        """A hand whose palm feels something all the time."""
+
+        def sense(self, time: float) -> Sense:
+            full = super().sense(time)
+            return replace(full, hands={name: replace(hand, bump=bump) for name, hand in full.hands.items()})
+
+    said = carried_out("grasp(hand1, egg1, 5)", scene(EGG_IN_HAND), Bumping((0.2, 0.1, 0.95)))
+    assert {each.outcome for _, each in said if isinstance(each, End)} == {outcome}
 
 
 def test_a_hand_that_is_held_up_has_not_reached_its_place() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 import numpy as np
 
@@ -53,7 +53,14 @@ def line(displacement: Triple, acceleration: float, speed: float) -> Iterator[tu
         yield (share * x, share * y, share * z), (rate * x, rate * y, rate * z)
 
 
-def travel(hand: Thing, sense: Sense, displacement: Triple, acceleration: float, speed: float) -> Behaviour:
+def travel(
+    hand: Thing,
+    sense: Sense,
+    displacement: Triple,
+    acceleration: float,
+    speed: float,
+    ignoring: Collection[str] = (),
+) -> Behaviour:
     """Move a hand along a straight line, from rest to rest, with the least jerk.
 
     Args:
@@ -62,6 +69,7 @@ def travel(hand: Thing, sense: Sense, displacement: Triple, acceleration: float,
         displacement: Where to, from the present target [m].
         acceleration: Greatest acceleration [m/s^2].
         speed: Greatest speed [m/s].
+        ignoring: What the palm of a hand that flies may be pressed against.
     """
     start, rotation = sense.hands[hand.name].offset, sense.hands[hand.name].rotation
     if sense.hands[hand.name].arm is not None:
@@ -70,7 +78,7 @@ def travel(hand: Thing, sense: Sense, displacement: Triple, acceleration: float,
     for step, velocity in line(displacement, acceleration, speed):
         offset = (start[0] + step[0], start[1] + step[1], start[2] + step[2])
         sense = yield (HandTarget(hand=hand.name, offset=offset, velocity=velocity, rotation=rotation),)
-        refuse_bump(hand, sense)
+        refuse_bump(hand, sense, ignoring)
     return (yield from arrived(hand, sense))
 
 
@@ -152,7 +160,7 @@ def reach(
     for part in (first, displacement - first):
         if np.linalg.norm(part) > ARRIVED:
             step = (float(part[0]), float(part[1]), float(part[2]))
-            sense = yield from unhindered(hand, travel(hand, sense, step, 2.0, speed), {object.name})
+            sense = yield from unhindered(hand, travel(hand, sense, step, 2.0, speed, {object.name}), {object.name})
     return sense
 
 

@@ -135,8 +135,8 @@ def _refuse(hand: Thing, path: JointPath) -> None:
         raise ActionFailedError(path.problem, f"{hand.name}: {path.detail}")
 
 
-def refuse_bump(hand: Thing, sense: Sense) -> None:
-    """End an action if the palm of its hand, or the arm that carries it, is pressed against something."""
+def refuse_bump(hand: Thing, sense: Sense, ignoring: Collection[str] = ()) -> None:
+    """End an action if the palm of its hand, or the arm that carries it, is pressed against what is not ignored."""
     bump = sense.hands[hand.name].bump
-    if bump:
+    if bump and bump not in ignoring:
         raise ActionFailedError("in_collision", f"{hand.name}: it is pressed against {bump}")
