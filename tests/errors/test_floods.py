@@ -111,7 +111,7 @@ def test_too_many_individuals_are_refused_before_anything_is_concluded_of_them(
     def conclude(*arguments: object, **named: object) -> None:
         raise AssertionError("they were counted too late")
 
-    monkeypatch.setattr("prolepsis.knowledge.knowledge_base.infer_types", conclude)
+    monkeypatch.setattr("prolepsis.knowledge.reasoning.infer_types", conclude)
     blocks = "".join(f":b{k} a :Block ; :x {k} .\n" for k in range(4001))
     (tmp_path / "s.ttl").write_text(f"@prefix : <https://w3id.org/prolepsis#> .\n{blocks}")
     (tmp_path / "s.toml").write_text('situation = "s.ttl"\nplan = "wait(0.1)"\n')

@@ -16,6 +16,8 @@ from prolepsis.geometry.rotations import multiply, rotate
 from prolepsis.geometry.shape import BoolArray, FloatArray
 from prolepsis.log.log import Contacts, Log
 from prolepsis.log.timeline import Timeline
+from prolepsis.terms.ticks import Ticks
+from prolepsis.terms.ticks import ticks_of as exact_ticks
 
 masks = st.lists(st.booleans(), min_size=1, max_size=60).map(lambda values: np.array(values, dtype=np.bool_))
 ticks = st.integers(min_value=1, max_value=8)
@@ -157,8 +159,11 @@ def test_the_order_of_the_things_makes_no_difference(order: list[int]) -> None:
     assert same(PLAIN, recognize(reordered(LOG, order)))
 
 
+EXACT: Ticks = exact_ticks(LOG.dt)
+
+
 def test_every_fact_ends_on_ticks_and_none_is_empty() -> None:
-    instants = set((np.arange(LOG.tick_count + 1) * LOG.dt).tolist())
+    instants = {EXACT.time(tick) for tick in range(LOG.tick_count + 1)}
     for fact in PLAIN.facts:
         assert fact.start in instants
         assert fact.end in instants

@@ -65,6 +65,7 @@ def test_no_particle_of_it_is_lost(cracked: Projection, dropped: Projection) -> 
         assert np.isfinite(p.position).all()
 
 
+@pytest.mark.filterwarnings("ignore:flowingOnto")  # what still flows is told with a no
 @pytest.mark.parametrize(("force", "breaks"), [(0.02, True), (0.5, False)])
 def test_whether_a_yolk_bursts_depends_on_its_membrane(force: float, breaks: bool) -> None:
     values = {"yolk1.membraneForce": force, "eggshell1.breakingForce": 12.0}

@@ -26,7 +26,7 @@ def open_note(answers: Sequence[Mapping[str, Value]], fields: Sequence[str], goa
     rows = zip(fields[0::3], fields[1::3], fields[2::3], strict=True)
     ends = [(text, float(start), float(end)) for text, start, end in rows]
     if answers:
-        ends = [each for each in ends if any(_shows(answer, *each[1:]) for answer in islice(answers, MOST_LOOKED_AT))]
+        ends = [each for each in ends if any(_shows(answer, goal, *each) for answer in islice(answers, MOST_LOOKED_AT))]
     if not ends:
         return ""
     names = brief_list([brief(text) for text, _, _ in ends])
@@ -34,5 +34,8 @@ def open_note(answers: Sequence[Mapping[str, Value]], fields: Sequence[str], goa
     return f"{names} still went on when the log ended at {ends[0][2]:g} s; {what}: {shown(goal)}"
 
 
-def _shows(answer: Mapping[str, Value], start: float, end: float) -> bool:
-    return any(value in (end, Term("-", (start, end))) for value in answer.values())
+def _shows(answer: Mapping[str, Value], goal: str, text: str, start: float, end: float) -> bool:
+    """Return whether an answer shows the end of an event that the goal asks for or the answer names."""
+    if not any(value in (end, Term("-", (start, end))) for value in answer.values()):
+        return False
+    return text.partition("(")[0] in goal or any(str(value) == text for value in answer.values())

@@ -10,8 +10,9 @@ from prolepsis.logic.refusals import shown
 from prolepsis.terms.errors import brief, brief_list
 from prolepsis.terms.terms import format_value
 
-FINE = ("done", "unfinished")
-"""Outcomes of which nothing need be said here: what a log cuts off is told as an open end."""
+FINE = ("done", "dropped", "unfinished")
+"""Outcomes of which nothing need be said here: what was let fall was done until then, what a log cuts off is told as an
+open end."""
 
 
 def undone_note(timeline: Timeline, goal: str) -> str:
