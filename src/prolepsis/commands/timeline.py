@@ -12,7 +12,6 @@ from prolepsis.commands.output import add_command, json_line, table, warn_unchec
 from prolepsis.terms.errors import InputError, UnknownNameError
 
 if TYPE_CHECKING:
-    from prolepsis.log.folding import Told
     from prolepsis.log.timeline import Timeline
 
 EXAMPLE = """\
@@ -62,7 +61,6 @@ def add_to(commands: Any) -> None:
 
 def run(given: argparse.Namespace) -> int:
     """Print the facts."""
-    from prolepsis.log.folding import fold, tell
     from prolepsis.log.saved import read_timeline
 
     if not given.begin < given.end:
@@ -73,8 +71,7 @@ def run(given: argparse.Namespace) -> int:
         for row in timeline.to_json():
             print(json_line(row))
     else:
-        told = [tell(fact) for fact in timeline.facts] if given.all else fold(timeline.facts, timeline.domain)
-        print(table(rows(told, timeline.dt)))
+        print(table(rows(timeline, all=given.all)))
     return 0
 
 
@@ -120,11 +117,13 @@ def _type(timeline: Timeline, given: str) -> str:
     return name
 
 
-def rows(told: Sequence[Told], dt: float) -> list[tuple[str, str, str, str, str]]:
-    """Return a heading and a row for each fact, times with as many decimals as ticks of ``dt`` [s] have."""
+def rows(timeline: Timeline, *, all: bool = False) -> list[tuple[str, str, str, str, str]]:
+    """Return a heading and a row for each fact, or for facts about many like things unless ``all`` are wanted."""
+    from prolepsis.log.folding import fold, tell
     from prolepsis.terms.ticks import ticks_of
 
-    decimals = ticks_of(dt).decimals
+    told = [tell(fact) for fact in timeline.facts] if all else fold(timeline.facts, timeline.domain)
+    decimals = ticks_of(timeline.dt).decimals
     facts = [
         (f"{each.start:.{decimals}f}", f"{each.end:.{decimals}f}", each.kind, each.what, each.evidence) for each in told
     ]
