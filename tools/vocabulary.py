@@ -28,6 +28,8 @@ HEAD = """\
             evidence_unit/2,            % ?Name, ?Unit
             class/1,                    % ?Class
             parent/2,                   % ?Class, ?Parent
+            defined_by/3,               % ?Class, ?Property, ?Filler
+            property_parent/2,          % ?Property, ?Parent
             property/2                  % ?Property, ?Unit
           ]).
 """
@@ -45,6 +47,14 @@ def vocabulary_text() -> str:
             _rows("evidence_unit", EVIDENCE_UNITS.items()),
         ),
         ("class(Class), parent(Class, Parent): the classes, and those above them as told.", _classes(vocabulary)),
+        (
+            "defined_by(Class, Property, Filler): what a defined class asks for, all of it, where that is a row each.",
+            _rows("defined_by", {(each.name, *row) for each in vocabulary.classes.values() for row in each.conditions}),
+        ),
+        (
+            "property_parent(Property, Parent): the properties, and those above them as told.",
+            _rows("property_parent", ((p.name, above) for p in vocabulary.properties.values() for above in p.parents)),
+        ),
         (
             "property(Property, Unit): what individuals have; the unit of what is no quantity is ''.",
             _rows("property", ((entry.name, entry.si_unit) for entry in vocabulary.properties.values())),

@@ -36,6 +36,10 @@ def timeline() -> Timeline:
     return make_timeline(facts, dt=0.001, duration=4.0, domain=domain)
 
 
+RUN1 = timeline()
+"""The first run of a session, and the only one while it is kept here."""
+
+
 @pytest.fixture(scope="module")
 def session() -> Iterator[Session]:
     session = Session()
@@ -91,7 +95,7 @@ def session() -> Iterator[Session]:
 )
 def test_what_nothing_is_called_is_an_error(session: Session, goal: str, message: str) -> None:
     with pytest.raises(GoalError, match=message) as refused:
-        session.ask(timeline(), goal)
+        session.ask(RUN1, goal)
     assert "\n" not in str(refused.value) and len(str(refused.value)) < 400
 
 
@@ -119,7 +123,7 @@ def test_what_nothing_is_called_is_an_error(session: Session, goal: str, message
     ],
 )
 def test_no_is_the_answer_where_all_names_are_known(session: Session, goal: str) -> None:
-    assert session.ask(timeline(), goal) == []
+    assert session.ask(RUN1, goal) == []
 
 
 def test_what_another_run_of_the_session_names_is_known() -> None:

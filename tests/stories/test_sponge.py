@@ -55,11 +55,14 @@ def test_wiped_with_a_dry_sponge_the_table_is_clean_and_the_sponge_has_the_puddl
     assert_nothing_is_lost(dry)
     assert of_the_puddle(dry) == {"absorbs(sponge1,liq1)"}
     assert in_the_end(dry) == {"absorbs(sponge1,liq1)"}
+    assert dry.ask("holds(dirty(table1), 0.0-_), \\+ holds(dirty(table1), 8.0), \\+ holds(wet(table1), 8.0)")
+    assert dry.ask("instance_of(table1, 'WetThing', 0.0), \\+ instance_of(table1, 'WetThing', 8.0)")
 
 
 def test_wiped_with_a_full_sponge_it_stays_wet(saturated: Projection) -> None:
     assert_nothing_is_lost(saturated)
     assert in_the_end(saturated) == {"on(liq1,table1)", "spilled(liq1)", "supports(table1,liq1)"}
+    assert saturated.ask("holds(dirty(table1), 0.0-_), holds(dirty(table1), 8.0)")
     assert saturated.ask("occurs(wiping(sponge1, table1), _)")
     assert saturated.ask("holds(absorbs(sponge1, liq2), 0.0-_)")
 

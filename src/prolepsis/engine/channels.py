@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from prolepsis.engine.whereabouts import whereabouts
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.log.things import Thing
 from prolepsis.scene.kind import Channel, Kind
@@ -15,16 +16,20 @@ from prolepsis.terms.errors import ScenarioError, UnknownNameError
 
 
 def _speed(state: Running, thing: Thing) -> float:
-    return float(np.linalg.norm(state.velocity(thing.name)))
+    return float(np.linalg.norm(whereabouts(state, thing)[1]))
 
 
 def _height(state: Running, thing: Thing) -> float:
-    return state.position(thing.name)[2]
+    return float(whereabouts(state, thing)[0][2])
 
 
 CHANNELS = (
-    Channel(name="speed", doc="the speed of its frame [m/s], 0 where it is no body of its own", read=_speed),
-    Channel(name="height", doc="the height of its frame above the ground [m]", read=_height),
+    Channel(
+        name="speed", doc="the speed of its frame, or of its middle where it fell apart or flows [m/s]", read=_speed
+    ),
+    Channel(
+        name="height", doc="the height of its frame, or of its middle where it fell apart or flows [m]", read=_height
+    ),
     Channel(name="temperature", doc="its temperature [K]"),
 )
 """Those that all things have, whatever the kinds."""

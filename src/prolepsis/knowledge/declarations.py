@@ -41,6 +41,13 @@ def read_vocabulary(documents: tuple[Document, ...]) -> Vocabulary:
             entry = _class(document, iri, properties)
             _refuse_second_name(document, iri, classes.get(entry.name, properties.get(entry.name)))
             classes[entry.name] = _joined(classes[entry.name], entry) if entry.name in classes else entry
+    for document in documents:
+        # A file may say more of a class that another one declares.
+        said = {iri for iri in document.graph.subjects(RDFS.subClassOf) if isinstance(iri, URIRef)}
+        for iri in sorted(said.difference(_named(document, OWL.Class))):
+            known = classes.get(local_name(iri))
+            if known is not None and known.iri == str(iri):
+                classes[known.name] = _joined(known, _class(document, iri, properties))
     return Vocabulary(classes=dict(sorted(classes.items())), properties=dict(sorted(properties.items())))
 
 
@@ -132,6 +139,7 @@ def _class(document: Document, iri: URIRef, properties: Mapping[str, Property]) 
         iri=str(iri),
         parents=tuple(sorted(local_name(p) for p in own)),
         defined=any(isinstance(e, BNode) or not is_aligned(e) for e in graph.objects(iri, OWL.equivalentClass)),
+        conditions=_conditions(document, iri),
         defaults=tuple(sorted(_defaults(document, iri, properties), key=lambda d: d.property)),
         curves=tuple(sorted(_curves(document, iri, properties), key=lambda c: c.property)),
         limits=tuple(sorted(_limits(document, iri, properties), key=lambda p: p.name)),
@@ -141,6 +149,27 @@ def _class(document: Document, iri: URIRef, properties: Mapping[str, Property]) 
         alignments=tuple(sorted({str(p) for p in parents + others if is_aligned(p)})),
         comment=_text(document, iri, RDFS.comment),
     )
+
+
+def _conditions(document: Document, iri: URIRef) -> tuple[tuple[str, str], ...]:
+    """Return what a definition asks for, one row each; nothing if a part of it is of another form, or there are two."""
+    graph, found = document.graph, list[tuple[str, str]]()
+    meanings = [e for e in graph.objects(iri, OWL.equivalentClass) if isinstance(e, BNode)]
+    if len(meanings) != 1:
+        return ()
+    members = graph.value(meanings[0], OWL.intersectionOf)
+    for member in meanings if members is None else Collection(graph, members):
+        on = graph.value(member, OWL.onProperty)
+        truth, some = graph.value(member, OWL.hasValue), graph.value(member, OWL.someValuesFrom)
+        if isinstance(member, URIRef):
+            found.append(("is", local_name(member)))
+        elif isinstance(on, URIRef) and isinstance(truth, Literal) and truth.value is True:
+            found.append((local_name(on), "true"))
+        elif isinstance(on, URIRef) and isinstance(some, URIRef) and not str(some).startswith(str(XSD)):
+            found.append((local_name(on), local_name(some)))
+        else:
+            return ()
+    return tuple(sorted(found))
 
 
 def _word(document: Document, iri: URIRef) -> str:
@@ -163,6 +192,7 @@ def _joined(first: ClassEntry, second: ClassEntry) -> ClassEntry:
         iri=first.iri,
         parents=tuple(sorted({*first.parents, *second.parents})),
         defined=first.defined or second.defined,
+        conditions=() if first.conditions and second.conditions else first.conditions or second.conditions,
         defaults=tuple(sorted((*first.defaults, *second.defaults), key=lambda d: d.property)),
         curves=(*first.curves, *second.curves),
         limits=(*first.limits, *second.limits),

@@ -238,6 +238,8 @@ class KnowledgeBase:
             values=tuple((n, p, k.value) for n in names for p, k in self.quantities(n).items()),
             relations=self.relations(),
             subclasses=tuple(sorted({(c.name, p) for c in self.vocabulary.classes.values() for p in c.parents})),
+            definitions=tuple((c.name, *row) for c in self.vocabulary.classes.values() for row in c.conditions),
+            subproperties=tuple((p, above) for p, e in self.vocabulary.properties.items() for above in e.parents),
             units=tuple((p, e.si_unit) for p, e in self.vocabulary.properties.items() if e.kind == "quantity"),
             unchecked=self.unchecked,
         )

@@ -139,6 +139,9 @@ class ClassEntry:
     """Named superclasses that are told."""
     defined: bool = False
     """True if the reasoner decides who belongs to it (``owl:equivalentClass``)."""
+    conditions: tuple[tuple[str, str], ...] = ()
+    """What makes up a definition that is an intersection of named classes, ``("is", "Gripper")``, of what is true,
+    ``("wet", "true")``, and of relations to some of a named class, ``("contains", "Liquid")``; none of any other."""
     defaults: tuple[Default, ...] = ()
     """Class defaults."""
     curves: tuple[Curve, ...] = ()

@@ -24,6 +24,11 @@ class Domain:
     """(relation, subject, object): what the situation asserts, which holds from 0.0 on (``log/asserted.py``)."""
     subclasses: tuple[tuple[str, str], ...] = ()
     """(class, class above it), as told."""
+    definitions: tuple[tuple[str, str, str], ...] = ()
+    """(class, property, filler) of classes that are defined by all of such rows: ``("WetGripper", "is", "Gripper")``,
+    ``("WetThing", "wet", "true")``, ``("LiquidContainer", "comprises", "Liquid")``."""
+    subproperties: tuple[tuple[str, str], ...] = ()
+    """(property, property above it), as told."""
     units: tuple[tuple[str, str], ...] = ()
     """(property, SI unit) of quantities."""
     unchecked: str = ""

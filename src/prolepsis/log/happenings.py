@@ -25,6 +25,9 @@ class HappeningType:
 DETACHMENT = HappeningType(name="detachment", things=("thing", "a", "b"), numbers=("force",))
 """A bond of something breakable gives way: of the whole, between two of its pieces, under a force [N]."""
 
+FILM = HappeningType(name="film", things=("thing", "stuff"), numbers=("wet",))
+"""The surface of a thing becomes wet with a stuff (1), or dry again (0), which names the thing twice."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Happening:
@@ -41,6 +44,11 @@ class Happening:
 def detachment(thing: int, a: int, b: int, force: float) -> Happening:
     """Return that a bond between two pieces, a and b, of a whole has detached under a force [N]."""
     return Happening(type=DETACHMENT.name, things={"thing": thing, "a": a, "b": b}, numbers={"force": force})
+
+
+def film(thing: int, stuff: int, *, wet: bool) -> Happening:
+    """Return that the surface of a thing has become wet with a stuff, or dry again."""
+    return Happening(type=FILM.name, things={"thing": thing, "stuff": stuff}, numbers={"wet": float(wet)})
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -60,14 +60,15 @@ def _domain(table: Any) -> Domain:
     """Return the domain whose rows these are; each has as many texts as its kind of row, and values may be numbers."""
     names = [each.name for each in fields(Domain)]
     # Older folders have no classes and units, and do not say whether it was checked: it was, or they would not be.
-    later = {"unchecked", "subclasses", "units"}
+    later = {"unchecked", "subclasses", "definitions", "subproperties", "units"}
     if not isinstance(table, dict) or {*later, *cast("dict[str, Any]", table)} != set(names):
         raise ValueError(f"{DOMAIN} must be an object with {', '.join(names)}")
-    rows: dict[str, Any] = {"subclasses": [], "units": [], **cast("dict[str, Any]", table)}
+    rows: dict[str, Any] = {**{name: [] for name in later - {"unchecked"}}, **cast("dict[str, Any]", table)}
     unchecked = rows.get("unchecked", "")
     if not isinstance(unchecked, str):
         raise ValueError(f"{DOMAIN}: unchecked must be a text")
-    columns = {name: 3 if name in ("values", "relations") else 2 for name in names if name != "unchecked"}
+    of_three = ("values", "relations", "definitions")
+    columns = {name: 3 if name in of_three else 2 for name in names if name != "unchecked"}
     for name, count in columns.items():
         kinds = (str,) * (count - 1) + ((str, int, float) if name == "values" else str,)
         if not isinstance(rows[name], list) or not all(_is_row(row, kinds) for row in rows[name]):

@@ -74,5 +74,9 @@ def _domain_rows(timeline: Timeline) -> Iterable[str]:
         yield f"value({_atom(individual)},{_atom(name)},{_text(value)}).\n"
     for name, above in domain.subclasses:
         yield f"subclass({_atom(name)},{_atom(above)}).\n"
+    for row in domain.definitions:
+        yield f"definition({','.join(map(_atom, row))}).\n"
+    for name, above in domain.subproperties:
+        yield f"subproperty({_atom(name)},{_atom(above)}).\n"
     for name, unit in domain.units:
         yield f"unit({_atom(name)},{_atom(unit)}).\n"

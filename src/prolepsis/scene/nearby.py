@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 
 from prolepsis.geometry.rotations import matrix
-from prolepsis.geometry.shape import FloatArray, Shape
+from prolepsis.geometry.shape import FloatArray, IntArray, Shape
 from prolepsis.geometry.signed_distance import field_of
 from prolepsis.geometry.solids import bounded
 from prolepsis.scene.running import Running
@@ -25,14 +25,14 @@ def solids_of(state: Running) -> list[int]:
     ]
 
 
-def touched(state: Running, index: int, points: FloatArray, reach: float) -> bool:
-    """Return whether one of the world points, shape (n, 3), is nearer than ``reach`` [m] to a thing where it is now."""
+def touching(state: Running, index: int, points: FloatArray, reach: float) -> IntArray:
+    """Return which world points, shape (n, 3), are nearer than ``reach`` [m] to a thing where it is now, shape (k,)."""
     shape = state.scene.things[index].shape
     pose = state.pose(state.scene.things[index].name)
     local = (points - pose[:3]) @ matrix(pose[3:])
     low, high = _box(shape)
-    local = local[((local > low - reach) & (local < high + reach)).all(axis=1)]
-    return bool((field_of(shape).distance(local) < reach).any())
+    near = np.flatnonzero(((local > low - reach) & (local < high + reach)).all(axis=1))
+    return near[field_of(shape).distance(local[near]) < reach]
 
 
 @lru_cache(maxsize=4096)

@@ -317,6 +317,7 @@ may(finishes(?, ?)).
 may(finished_by(?, ?)).
 may(equals(?, ?)).
 may(instance_of(?, ?)).
+may(instance_of(?, ?, ?)).
 may(has_part(?, ?)).
 may(value(?, ?, ?)).
 may(subclass_of(?, ?)).

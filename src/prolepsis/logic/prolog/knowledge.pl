@@ -4,23 +4,46 @@
 */
 
 :- module(knowledge,
-          [ instance_of/2,              % ?Individual, ?Class
+          [ instance_of/3,              % ?Individual, ?Class, ?Interval
+            instance_of/2,              % ?Individual, ?Class
             has_part/2,                 % ?Whole, ?Part
             value/3,                    % ?Individual, ?Property, ?Value
             subclass_of/2,              % ?Class, ?Above
             unit/2                      % ?Name, ?Unit
           ]).
 :- use_module(library(lists)).
+:- use_module(classes).
 :- use_module(runs).
+:- use_module(ticks).
 :- use_module(vocabulary).
 
 %!  instance_of(?Individual, ?Class) is nondet.
 %
-%   True if Individual belongs to Class, inferred classes included.
+%   True if Individual belongs to Class, inferred classes included: as the situation tells, or at any time of the run.
 
 instance_of(Individual, Class) :-
     current_run(Run),
-    Run:instance(Individual, Class).
+    (   Run:instance(Individual, Class)
+    ;   comes_to_be(Run, Individual, Class)
+    ).
+
+%!  instance_of(?Individual, ?Class, ?Interval) is nondet.
+%
+%   True if Individual belongs to Class over Interval, or at the instant Interval if that is a number. What a class asks
+%   for may come and go: an egg is a BrokenThing once it is broken, a cup a LiquidContainer while a liquid is in it.
+
+instance_of(Individual, Class, Instant), number(Instant) =>
+    current_run(Run),
+    snapped(Run, Instant, Time),
+    belongs(Run, Individual, Class, Start, End),
+    Start =< Time,
+    Time < End.
+instance_of(Individual, Class, Time) =>
+    current_run(Run),
+    Time = Start-End,
+    snapped(Run, Start, S),
+    snapped(Run, End, E),
+    belongs(Run, Individual, Class, S, E).
 
 %!  has_part(?Whole, ?Part) is nondet.
 %
@@ -42,36 +65,19 @@ value(Individual, Property, Value) :-
 %
 %   True if Above is a class above Class, as told, at any height: each once, the nearest first.
 
-subclass_of(Class, Above), var(Class), nonvar(Above) =>
-    setof(Each, Near^told_above(Each, Near), Classes),
-    member(Class, Classes),
-    above([Class], [], All),
-    memberchk(Above, All).
 subclass_of(Class, Above), var(Class) =>
-    setof(Each, Near^told_above(Each, Near), Classes),
-    member(Class, Classes),
-    subclass_of(Class, Above).
-subclass_of(Class, Above) =>
-    above([Class], [], All),
-    member(Above, All).
-
-%   above(+Queue, +Seen, -All): those above the classes in Queue that are not in Seen, by height.
-
-above([], _, []).
-above([Class|Queue], Seen, All) :-
-    findall(Above, told_above(Class, Above), Aboves0),
-    sort(Aboves0, Aboves),
-    subtract(Aboves, [Class|Seen], New),
-    append(New, Seen, Seen1),
-    append(Queue, New, Queue1),
-    append(New, More, All),
-    above(Queue1, Seen1, More).
-
-told_above(Class, Above) :-
     current_run(Run),
-    Run:subclass(Class, Above).
-told_above(Class, Above) :-
-    parent(Class, Above).
+    setof(Each, Near^told_above(Run, Each, Near), Classes),
+    member(Class, Classes),
+    all_above(Run, Class, All),
+    (   nonvar(Above)
+    ->  memberchk(Above, All)
+    ;   member(Above, All)
+    ).
+subclass_of(Class, Above) =>
+    current_run(Run),
+    all_above(Run, Class, All),
+    member(Above, All).
 
 %!  unit(?Name, ?Unit) is nondet.
 %

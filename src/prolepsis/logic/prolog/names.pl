@@ -41,6 +41,7 @@ takes(fact(run, ?, type(fact), ?, ?, ?)).
 takes(in(run, ?)).
 takes(ongoing(fact)).
 takes(instance_of(individual, class)).
+takes(instance_of(individual, class, ?)).
 takes(has_part(individual, individual)).
 takes(value(individual, property, ?)).
 takes(subclass_of(class, class)).

@@ -131,6 +131,7 @@ reads_all([Goal|Goals]) :-
 
 generates(holds(_, Interval), Interval).
 generates(occurs(_, Interval), Interval).
+generates(instance_of(_, _, Interval), Interval).
 
 relation(Goal, [I, J]) :-
     (   Goal = allen(Relation, I, J)
@@ -149,8 +150,8 @@ reads_timeline(Goal) :-
     ->  true
     ;   functor(Goal, Name, Arity),
         memberchk(Name/Arity, [ holds/2, occurs/2, fluent/2, fluentT/2, event/2, eventT/2, argsOf/2,
-                                objOf/2, ongoing/1, evidence/4, instance_of/2, has_part/2, value/3,
-                                subclass_of/2, unit/2 ])
+                                objOf/2, ongoing/1, evidence/4, instance_of/2, instance_of/3, has_part/2,
+                                value/3, subclass_of/2, unit/2 ])
     ).
 
 %   refine(+Goals, +Before, -Refined): tell each goal what its neighbours know.

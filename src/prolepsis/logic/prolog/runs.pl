@@ -9,7 +9,8 @@
         wide(Type)                  those with more than two arguments
         symmetric(Type)             those whose two arguments are alike
         declared(Kind, Type, Arity) what else may occur, as far as Python has been told
-        instance/2, part/2, value/3, subclass/2, unit/2       domain knowledge
+        instance/2, part/2, value/3, unit/2       domain knowledge
+        subclass/2, definition/3, subproperty/2   what is told of classes and properties
 
     First and Second repeat the first two arguments of Term ([] when there are fewer), so that the
     just-in-time index finds them. When a run is loaded, its facts become static.
@@ -52,6 +53,8 @@ table(instance/2).
 table(part/2).
 table(value/3).
 table(subclass/2).
+table(definition/3).
+table(subproperty/2).
 table(unit/2).
 
 %!  load_run(+Run:atom, +File) is det.

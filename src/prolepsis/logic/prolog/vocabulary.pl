@@ -8,6 +8,8 @@
             evidence_unit/2,            % ?Name, ?Unit
             class/1,                    % ?Class
             parent/2,                   % ?Class, ?Parent
+            defined_by/3,               % ?Class, ?Property, ?Filler
+            property_parent/2,          % ?Property, ?Parent
             property/2                  % ?Property, ?Unit
           ]).
 
@@ -31,6 +33,7 @@ fact_type(comprises, 2, fluent).
 fact_type(contacts, 2, fluent).
 fact_type(contains, 2, fluent).
 fact_type(dented, 1, fluent).
+fact_type(dirty, 1, fluent).
 fact_type(dripping, 2, event).
 fact_type(driving, 2, event).
 fact_type(driving, 3, event).
@@ -84,6 +87,7 @@ fact_type(supports, 2, fluent).
 fact_type(tilting, 2, event).
 fact_type(tilting, 3, event).
 fact_type(waiting, 1, event).
+fact_type(wet, 1, fluent).
 fact_type(wetWith, 2, fluent).
 fact_type(wiping, 2, event).
 
@@ -276,6 +280,27 @@ parent('WetGripper', 'Gripper').
 parent('WetGripper', 'WetThing').
 parent('WetThing', 'PhysicalObject').
 parent('YieldingBowl', 'Bowl').
+
+%   defined_by(Class, Property, Filler): what a defined class asks for, all of it, where that is a row each.
+
+defined_by('BrokenThing', broken, true).
+defined_by('BrokenThing', is, 'PhysicalObject').
+defined_by('DirtyThing', dirty, true).
+defined_by('DirtyThing', is, 'PhysicalObject').
+defined_by('LiquidContainer', comprises, 'Liquid').
+defined_by('LiquidContainer', is, 'Container').
+defined_by('Part', partOf, 'PhysicalObject').
+defined_by('SlipperyGripper', is, 'WetGripper').
+defined_by('SlipperyGripper', wetWith, 'EggWhite').
+defined_by('WetGripper', is, 'Gripper').
+defined_by('WetGripper', is, 'WetThing').
+defined_by('WetThing', is, 'PhysicalObject').
+defined_by('WetThing', wet, true).
+
+%   property_parent(Property, Parent): the properties, and those above them as told.
+
+property_parent(contains, comprises).
+property_parent(hasPart, comprises).
 
 %   property(Property, Unit): what individuals have; the unit of what is no quantity is ''.
 

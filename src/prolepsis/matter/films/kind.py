@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from prolepsis.log.happenings import FILM
 from prolepsis.scene.kind import Channel, Controller, Kind
 from prolepsis.scene.parts import Kernel, Shard
 from prolepsis.scene.running import Running
@@ -17,6 +18,7 @@ class Films(Kind):
         Channel(name="wet", doc="1 while its surface is wet, else 0", begins="WetThing"),
         Channel(name="dirty", doc="1 while stuff sticks to it, else 0", begins="DirtyThing"),
     )
+    happenings = (FILM,)
 
     def start(self, state: Running) -> Sequence[Controller]:
         """Return its controllers in one run."""

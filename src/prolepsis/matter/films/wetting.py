@@ -1,16 +1,32 @@
-"""Wetting: what touches a liquid that has come free becomes wet and dirty, and as slippery as it is when wet."""
+"""Wetting: what touches a liquid that has come free becomes wet and dirty, and as slippery as it is when wet.
+
+A film stays where the liquid was, also once that has run off, until something absorbent passes over it. What is told
+to be wet or dirty from the start is so nowhere in particular, and stays so.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+import numpy as np
+
+from prolepsis.geometry.rotations import matrix
+from prolepsis.geometry.shape import FloatArray, IntArray
+from prolepsis.log.happenings import film
 from prolepsis.log.things import friction_of
 from prolepsis.scene.kind import Controller
-from prolepsis.scene.nearby import solids_of, touched
+from prolepsis.scene.nearby import distance_to, solids_of, touching
 from prolepsis.scene.running import Running
 
 LOOK_TICKS = 50
-"""Surfaces are looked at every so many ticks."""
+"""Surfaces are looked at every so many ticks, and in the first one."""
 TOUCH_REACH = 0.75
 """Distance of a particle's centre from a surface that it wets [spacings]; at rest on it, it is a half."""
+NOTICEABLE = 0.02
+"""Share of the greatest area of a film [1] that is left when the surface counts as dry."""
+_BITS = 21
+"""Bits of a cell's number along an axis."""
+_HALF = 1 << (_BITS - 1)
 
 
 class Wetting(Controller):
@@ -20,33 +36,86 @@ class Wetting(Controller):
         """Attach to a simulation."""
         self._things = state.scene.things
         self._names = {thing.name: i for i, thing in enumerate(self._things)}
-        self._wet: set[int] = set()
+        self._absorbent = [i for i, t in enumerate(self._things) if "Absorbent" in t.roles and t.is_body]
+        self._wet: dict[int, IntArray] = {}
+        """Where the film of each thing is: cells a spacing wide in its frame, as one number each."""
+        self._most: dict[int, int] = {}
         self._ticks = 0
 
     def end_tick(self, state: Running) -> None:
-        """Wet what touches a liquid."""
+        """Wet what touches a liquid, and dry what has been wiped."""
         self._ticks += 1
         particles = state.particles
-        if particles is None or self._ticks % LOOK_TICKS or not particles.free.any():
+        if particles is None or (self._ticks % LOOK_TICKS and self._ticks > 1):
             return
-        positions = particles.position[particles.free]
+        free = np.flatnonzero(particles.free)
+        if not len(free) and not (self._wet and self._absorbent):
+            return
+        for index in self._absorbent:
+            held = particles.stuff[particles.holder == index]
+            if len(held) and index not in self._wet:
+                self._wetten(state, index, int(held[0]), np.zeros(0, dtype=np.int64))
+        positions = particles.position[free]
         for index in solids_of(state):
-            if index in self._wet:
+            # What nothing can dry need not be looked at again.
+            if index in self._wet and (not self._absorbent or index in self._absorbent):
                 continue
-            if touched(state, index, positions, TOUCH_REACH * particles.spacing):
-                self._wetten(state, index)
+            near = touching(state, index, positions, TOUCH_REACH * particles.spacing)
+            if index in self._wet:
+                self._wipe(state, index, particles.spacing, positions[near])
+            elif len(near):
+                cells = self._cells(state, index, particles.spacing, positions[near])
+                self._wetten(state, index, int(particles.stuff[free[near[0]]]), cells)
 
-    def _wetten(self, state: Running, index: int) -> None:
-        thing = self._things[index]
-        self._wet.add(index)
-        names = [thing.name]
-        while thing.whole is not None:
-            names.append(thing.whole)
-            thing = self._things[self._names[thing.whole]]
-        for name in names:
+    def _wipe(self, state: Running, index: int, spacing: float, positions: FloatArray) -> None:
+        """Take away the film over which something absorbent is now, unless liquid is there still."""
+        cells = self._wet[index]
+        world = self._centres(state, index, spacing, cells)
+        left = np.ones(len(cells), dtype=np.bool_)
+        for absorbent in self._absorbent:
+            left &= distance_to(state, absorbent, world) > TOUCH_REACH * spacing
+        self._wet[index] = np.union1d(cells[left], self._cells(state, index, spacing, positions))
+        self._most[index] = max(self._most[index], len(self._wet[index]))
+        if not len(positions) and len(self._wet[index]) <= NOTICEABLE * self._most[index]:
+            self._dry(state, index)
+
+    def _cells(self, state: Running, index: int, spacing: float, positions: FloatArray) -> IntArray:
+        pose = state.pose(self._things[index].name)
+        local = (positions - pose[:3]) @ matrix(pose[3:])
+        numbers = np.floor(local / spacing).astype(np.int64) + _HALF
+        return np.unique((numbers[:, 0] << 2 * _BITS) | (numbers[:, 1] << _BITS) | numbers[:, 2])
+
+    def _centres(self, state: Running, index: int, spacing: float, cells: IntArray) -> FloatArray:
+        pose, mask = state.pose(self._things[index].name), 2 * _HALF - 1
+        numbers = np.stack((cells >> 2 * _BITS, (cells >> _BITS) & mask, cells & mask), axis=1) - _HALF
+        return pose[:3] + ((numbers + 0.5) * spacing) @ matrix(pose[3:]).T
+
+    def _wetten(self, state: Running, index: int, stuff: int, cells: IntArray) -> None:
+        surface = self._things[index]
+        self._wet[index], self._most[index] = cells, len(cells)
+        for name in (surface.name, *self._wholes(index)):
             state.set_attribute(name, "wet", 1.0)
             state.set_attribute(name, "dirty", 1.0)
-        surface = self._things[index]
+        state.report(film(index, stuff, wet=True))
         slippery = surface.quantities.get("frictionWhenWet", friction_of(surface))
         if slippery < friction_of(surface):
             state.set_friction(index, slippery)
+
+    def _dry(self, state: Running, index: int) -> None:
+        del self._wet[index], self._most[index]
+        surface = self._things[index]
+        state.report(film(index, index, wet=False))
+        if not surface.quantities.get("wet"):
+            state.set_friction(index, friction_of(surface))
+        for attribute in ("wet", "dirty"):
+            told = {name for name, i in self._names.items() if self._things[i].quantities.get(attribute)}
+            still = told.union(*({self._things[i].name, *self._wholes(i)} for i in self._wet))
+            for name in {surface.name, *self._wholes(index)} - still:
+                state.set_attribute(name, attribute, 0.0)
+
+    def _wholes(self, index: int) -> Iterator[str]:
+        """Yield the names of all that a thing is a part of."""
+        thing = self._things[index]
+        while thing.whole is not None:
+            yield thing.whole
+            thing = self._things[self._names[thing.whole]]

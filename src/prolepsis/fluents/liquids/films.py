@@ -1,0 +1,59 @@
+"""``wet(a)`` and ``dirty(a)``: a film lies on a's surface, as told or from when something made it so."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from prolepsis.fluents.intervals import runs
+from prolepsis.fluents.observation import Observation
+from prolepsis.fluents.registry import fluent
+from prolepsis.geometry.shape import BoolArray
+from prolepsis.log.happenings import FILM
+from prolepsis.log.timeline import Evidence, Fact
+
+
+@fluent("wet", "o")
+def wet(observation: Observation) -> Iterator[Fact]:
+    """The thing's surface is wet, as told or since a liquid touched it, until something absorbent has wiped it."""
+    yield from _filmed(observation, "wet")
+
+
+@fluent("dirty", "o")
+def dirty(observation: Observation) -> Iterator[Fact]:
+    """Stuff sticks to the thing, as told or since a liquid touched it, until something absorbent has wiped it."""
+    yield from _filmed(observation, "dirty")
+
+
+def _filmed(observation: Observation, attribute: str) -> Iterator[Fact]:
+    """Yield when a surface of each unit has a film."""
+    things = observation.log.things
+    told = {i for i, thing in enumerate(things) if thing.quantities.get(attribute)}
+    films = observation.of(film_masks)
+    for unit in observation.units:
+        mask, stuffs = np.zeros(observation.tick_count, dtype=np.bool_), dict[str, None]()
+        for thing in observation.bodies(unit):
+            if thing in films:
+                mask |= films[thing][0]
+                stuffs |= dict.fromkeys(films[thing][1])
+        known = unit in told or not told.isdisjoint(observation.bodies(unit))
+        mask = (mask | known) & observation.exists(unit)
+        evidence: Evidence = {"source": "told"} if known else {"by": next(iter(stuffs), "")}
+        for stretch in runs(mask):
+            yield observation.fact("fluent", attribute, (observation.unit_names[unit],), stretch, evidence)
+
+
+def film_masks(observation: Observation) -> dict[int, tuple[BoolArray, tuple[str, ...]]]:
+    """Return when each thing that becomes wet in the log is so, shape (T,), and with what."""
+    happenings = observation.log.happenings.get(FILM.name)
+    found: dict[int, tuple[BoolArray, tuple[str, ...]]] = {}
+    if happenings is None:
+        return found
+    for row in range(len(happenings)):
+        tick, is_wet = int(happenings.tick[row]), bool(happenings.numbers["wet"][row])
+        thing, stuff = (int(happenings.things[each][row]) for each in ("thing", "stuff"))
+        mask, stuffs = found.get(thing, (np.zeros(observation.tick_count, dtype=np.bool_), ()))
+        mask[tick:] = is_wet
+        found[thing] = mask, (*stuffs, observation.log.things[stuff].name) if is_wet else stuffs
+    return found

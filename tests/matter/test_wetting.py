@@ -1,0 +1,97 @@
+"""What touches a liquid becomes wet and dirty; where a sponge has been and no liquid is left, it is clean again."""
+
+from __future__ import annotations
+
+import pytest
+from tests.scenes import run, scene, started
+
+from prolepsis.engine.state import State
+from prolepsis.engine.world import compile_world
+from prolepsis.fluents import recognize
+from prolepsis.log.log import FREE
+from prolepsis.log.timeline import Timeline
+from prolepsis.matter.films.wetting import LOOK_TICKS, Wetting
+
+PUDDLE = ":floor a :Floor . :table1 a :Table . :liq1 a :Water ; :on :table1 ; :volume 0.0000005 . "
+OVER_IT = ":sponge1 a :Sponge ; :length 0.06 ; :width 0.06 ; :height 0.02 ; :z 0.713 . "
+AWAY = OVER_IT.replace("0.713", "0.9")
+
+
+def looks(state: State, wetting: Wetting) -> bool:
+    """Let it look again, and return whether the table is wet then."""
+    for _ in range(LOOK_TICKS):
+        wetting.end_tick(state)
+    return bool(state.attribute("table1", "wet"))
+
+
+def begun(turtle: str) -> tuple[State, Wetting]:
+    """Return a run that stands still at its start, with a table that is wet, and what makes it so."""
+    state = State.of(compile_world(scene(turtle, particles=60)))
+    (wetting,) = started(state, Wetting)
+    wetting.end_tick(state)
+    assert state.attribute("table1", "wet") and state.attribute("table1", "dirty")
+    return state, wetting
+
+
+def taken_up(state: State) -> None:
+    """Let the sponge hold all the liquid."""
+    assert state.particles is not None
+    state.particles.holder[:] = state.scene.index("sponge1")
+
+
+def spans(timeline: Timeline, name: str, thing: str) -> list[tuple[float, float]]:
+    """Return when a fluent holds of a thing [s]."""
+    return [(fact.start, fact.end) for fact in timeline.facts if fact.type == name and fact.args == (thing,)]
+
+
+def test_a_table_is_wet_until_a_sponge_over_the_place_has_taken_the_puddle_up() -> None:
+    state, wetting = begun(PUDDLE + OVER_IT)
+    assert looks(state, wetting), "the puddle is there still"
+    taken_up(state)
+    assert not looks(state, wetting) and not state.attribute("table1", "dirty")
+    assert state.attribute("sponge1", "wet")
+
+
+def test_what_is_gone_but_was_not_wiped_leaves_a_film() -> None:
+    state, wetting = begun(PUDDLE + AWAY)
+    taken_up(state)
+    assert looks(state, wetting)
+
+
+def test_what_is_wet_again_is_wet_again() -> None:
+    state, wetting = begun(PUDDLE + OVER_IT)
+    taken_up(state)
+    assert not looks(state, wetting)
+    assert state.particles is not None
+    state.particles.holder[:] = FREE
+    assert looks(state, wetting)
+
+
+def test_what_is_told_to_be_wet_or_dirty_stays_so_for_no_one_knows_where() -> None:
+    state, wetting = begun(PUDDLE + OVER_IT + ":table1 :dirty true .")
+    taken_up(state)
+    assert not looks(state, wetting) and state.attribute("table1", "dirty")
+
+
+def test_a_dry_surface_has_its_friction_again() -> None:
+    state, wetting = begun(PUDDLE + OVER_IT + ":table1 :friction 0.6 ; :frictionWhenWet 0.2 .")
+    assert state.model.geom("table1/0").friction[0] == pytest.approx(0.2)
+    taken_up(state)
+    assert not looks(state, wetting)
+    assert state.model.geom("table1/0").friction[0] == pytest.approx(0.6)
+
+
+def test_facts_tell_what_is_wet_from_when_to_when_and_with_what() -> None:
+    full = ":sponge2 a :Sponge ; :x 0.2 ; :on :table1 ; :length 0.03 ; :width 0.03 ; :height 0.01 ; :saturation 0.5 ; "
+    soaked = full + ":absorbs :liq2 . :liq2 a :Water . "
+    timeline = recognize(run(PUDDLE + AWAY + soaked, "wait(0.2)", duration=0.2, particles=150))
+    assert spans(timeline, "wet", "table1") == spans(timeline, "dirty", "table1") == [(0.0, 0.2)]
+    assert timeline.ask("evidence(wet(table1), _, by, liq1), evidence(wet(sponge2), 0.0-_, by, liq2)")
+    assert not timeline.ask("holds(wet(sponge1), _) ; holds(wet(floor), _)")
+
+
+def test_a_hand_that_is_told_to_be_wet_is_so_without_any_liquid() -> None:
+    told = run(":floor a :Floor . :hand1 a :Gripper ; :wet true ; :z 0.5 .", "wait(0.01)", duration=0.01)
+    timeline = recognize(told)
+    assert spans(timeline, "wet", "hand1") == [(0.0, 0.01)] and not spans(timeline, "dirty", "hand1")
+    assert timeline.ask("evidence(wet(hand1), _, source, told)")
