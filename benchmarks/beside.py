@@ -38,7 +38,16 @@ class Used:
 
 
 def archived(revision: str, folder: Path) -> Path:
-    """Return the sources of an earlier state, written into a folder."""
+    """Return the sources of an earlier state, written into a folder.
+
+    Raises:
+        LookupError: If there is no such commit.
+    """
+    named = ["git", "rev-parse", "--verify", "--quiet", "--end-of-options", f"{revision}^{{commit}}"]
+    found = subprocess.run(named, cwd=ROOT, check=False, capture_output=True, text=True)
+    if found.returncode:
+        raise LookupError("no commit is called so here; allowed: what git rev-parse knows, as HEAD~1 or a tag")
+    revision = found.stdout.strip()
     packed = subprocess.run(["git", "archive", revision, "src"], cwd=ROOT, check=True, capture_output=True).stdout
     with tarfile.open(fileobj=io.BytesIO(packed)) as files:
         files.extractall(folder, filter="data")

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import importlib.util
+import signal
 import subprocess
 import sys
 import tempfile
@@ -50,8 +51,8 @@ def main() -> None:
         if given.against is not None:
             try:
                 sources.append(archived(given.against, Path(folder)))
-            except subprocess.CalledProcessError as error:
-                read.error(f"--against {given.against}: {error.stderr.decode().strip()}")
+            except (LookupError, subprocess.CalledProcessError) as error:
+                read.error(f"--against {given.against}: {error}")
             title = (*title, f"at {given.against}")
         print(table([title, *_measured(chosen, sources, len(title))]))
 
@@ -84,4 +85,9 @@ def _rows(file: Path, sources: Sequence[Path]) -> Iterator[Row]:
 
 
 if __name__ == "__main__":
-    main()
+    # A run that is ended leaves nothing behind.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        main()
+    except KeyboardInterrupt:
+        sys.exit(130)

@@ -42,6 +42,12 @@ def test_stiffness_between_plates_is_that_of_the_ontology() -> None:
     assert pytest.approx(1.3) == POLE / GIRDLE
 
 
+def test_a_shard_of_one_egg_may_touch_the_whole_shell_of_another() -> None:
+    below = ":egg2 a :QuailEgg ; :on :floor ; :x 0.012 ; :y -0.02 . "
+    log = run(":floor a :Floor . " + below + ":egg1 a :Egg ; :x 0.013 ; :y -0.021 ; :z 0.55 .", duration=0.4)
+    assert {log.index("egg1"), log.index("egg2")} <= {*log.detachments.thing.tolist()}
+
+
 @pytest.mark.laws
 @pytest.mark.parametrize("substep", SUBSTEPS)
 @pytest.mark.parametrize("standing", [False, True])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import pickle
+import re
 import shutil
 import stat
 import subprocess
@@ -17,7 +18,9 @@ import pytest
 from prolepsis.geometry.kept import kept_array
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.system import cache
-from prolepsis.system.cache import keep, read_kept
+from prolepsis.system.cache import keep, keep_newest, read_kept
+from prolepsis.system.kernels import BESIDE, ROOMS
+from prolepsis.system.sources import sources_in
 
 RIGHT = np.arange(12.0).reshape(3, 4)
 
@@ -145,6 +148,58 @@ def test_a_full_disk_only_costs_time_and_leaves_no_part(root: Path, monkeypatch:
     assert read_kept(root / "arrays" / "b") == b"b"
 
 
+def test_a_note_that_cannot_be_said_changes_nothing() -> None:
+    told = "from prolepsis.system.cache import note; note('this'); print('done')"
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([sys.executable, "-c", told], stdout=subprocess.PIPE, stderr=full, text=True, check=False)
+    assert done.stdout == "done\n"
+
+
+def test_what_is_not_of_the_cache_is_never_removed(root: Path) -> None:
+    folder = root / "read"
+    for number in range(5):
+        keep(folder / f"kept{number}", b"kept")
+        os.utime(folder / f"kept{number}", (number, number))
+    (folder / "book").write_text("precious")
+    os.utime(folder / "book", (0, 0))
+    keep_newest(folder, 2)
+    assert sorted(file.name for file in folder.iterdir()) == ["book", "kept3", "kept4"]
+
+
+def test_a_part_that_a_killed_process_left_is_removed_and_one_that_is_written_is_not(root: Path) -> None:
+    keep(root / "read" / "a", b"a")
+    old, new = root / "read" / f".old{cache.PART}", root / "read" / f".new{cache.PART}"
+    for part in (old, new):
+        part.write_bytes(b"half")
+    os.utime(old, (0, 0))
+    keep(root / "read" / "b", b"b")
+    assert not old.exists() and new.exists()
+
+
+def test_what_an_editor_leaves_beside_sources_is_none(tmp_path: Path) -> None:
+    (tmp_path / "room").mkdir()
+    (tmp_path / "room" / "a.py").write_text("a")
+    (tmp_path / "room" / ".#a.py").symlink_to("nobody@host.1:1")
+    (tmp_path / "room" / "gone.py").symlink_to("nowhere")
+    (tmp_path / "room" / "folder.py").mkdir()
+    assert sources_in(tmp_path, "py") == [tmp_path / "room" / "a.py"]
+
+
+def test_constants_of_kernels_are_of_what_their_key_is_made_of() -> None:
+    package = Path(cache.__file__).parents[1]
+    rooms = [package / room for room in ROOMS]
+    for file in (each for room in rooms for each in sources_in(room, "py")):
+        text = file.read_text(encoding="utf-8")
+        if "@njit" not in text:
+            continue
+        body = text.partition("@njit")[2]
+        for source, names in re.findall(r"^from prolepsis\.(\S+) import ([^()\n]+)$", text, re.MULTILINE):
+            constants = [n for n in re.findall(r"\b[A-Z][A-Z_]+\b", names) if re.search(rf"\b{n}\b", body)]
+            known = package / f"{source.replace('.', '/')}.py"
+            is_known = known in map(package.joinpath, BESIDE) or any(room in known.parents for room in rooms)
+            assert is_known or not constants, file
+
+
 KERNEL = """
 import sys
 import numpy as np
@@ -170,11 +225,17 @@ def compiled(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def run(folder: Path) -> tuple[str, str]:
-    environment = {**os.environ, "XDG_CACHE_HOME": str(folder / "home")}
+def run(folder: Path, **more: str) -> tuple[str, str]:
+    environment = {**os.environ, "XDG_CACHE_HOME": str(folder / "home"), **more}
     command = [sys.executable, str(folder / "script.py")]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
     return done.stdout, done.stderr
+
+
+def test_a_kernel_is_kept_apart_for_other_settings_of_the_compiler(compiled: Path, tmp_path: Path) -> None:
+    folder = shutil.copytree(compiled, tmp_path / "kernels")
+    assert run(folder, NUMBA_OPT="0") == ("10.0 0\n", "")
+    assert run(folder, NUMBA_OPT="0") == run(folder) == ("10.0 1\n", "")
 
 
 class Malice:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TypeVar, cast
 
 from prolepsis.system.cache import cache_root, kept_or_made
-from prolepsis.system.sources import digest_of
+from prolepsis.system.sources import digest_of, sources_in
 
 DECLARING = ("prolepsis.fluents", "prolepsis.programs", "prolepsis.knowledge", "prolepsis.matter")
 """Rooms in which things are declared; a program that has imported one may have declared more by itself."""
@@ -36,4 +36,4 @@ def kept(what: str, make: Callable[[], Told]) -> Told:
 @cache
 def _package() -> str:
     package = Path(__file__).resolve().parents[1]
-    return digest_of((), (file for suffix in ("py", "ttl") for file in package.rglob(f"*.{suffix}")))
+    return digest_of((), (file for suffix in ("py", "ttl") for file in sources_in(package, suffix)))

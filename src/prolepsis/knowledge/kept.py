@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import json
 import os
-from contextlib import suppress
 from pathlib import Path
 from typing import cast
 
-from prolepsis.system.cache import cache_root, keep, read_kept
+from prolepsis.system.cache import cache_root, keep, keep_newest, read_kept
 
 CACHE_VARIABLE = "PROLEPSIS_CACHE"
 """Environment variable: folder of the kept answers, or empty to keep none."""
@@ -49,8 +48,4 @@ def keep_reading(key: str, content: bytes) -> None:
     if folder is None:
         return
     keep(folder / "read" / key, content)
-    # Others may do the same meanwhile.
-    with suppress(OSError):
-        files = sorted((folder / "read").iterdir(), key=lambda each: each.stat().st_mtime)
-        for old in files[:-MOST_READINGS]:
-            old.unlink(missing_ok=True)
+    keep_newest(folder / "read", MOST_READINGS)

@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING
 
 from prolepsis.knowledge.inferred import Types
 from prolepsis.knowledge.kept import keep_reading, read_reading
+from prolepsis.knowledge.reasoner import time_limit
 from prolepsis.knowledge.situation import Situation
 from prolepsis.knowledge.sources import Source
 from prolepsis.knowledge.vocabulary import Vocabulary
-from prolepsis.system.sources import digest_of, digest_of_texts
+from prolepsis.system.sources import digest_of, digest_of_texts, sources_in
 
 if TYPE_CHECKING:
     from prolepsis.knowledge.turtle import Document
@@ -32,6 +33,8 @@ def read(sources: tuple[Source, ...], *, check: bool, most: int | None) -> Readi
     Raises:
         InputError: If a file, a name, a value or the structure of parts is wrong, or the axioms contradict each other.
     """
+    # Told wrongly it is refused, whether or not there is anything to check.
+    time_limit()
     key = digest_of_texts((_readers(), check, most), [(_known(each), each.text) for each in sources])
     kept = read_reading(key)
     if kept is not None:
@@ -84,5 +87,5 @@ def _known(source: Source) -> object:
 def _readers() -> str:
     """Return a digest of all that reads and infers."""
     package = Path(__file__).parent.parent
-    files = (file for room in ("knowledge", "terms") for file in (package / room).glob("*.py"))
+    files = (file for room in ("knowledge", "terms") for file in sources_in(package / room, "py"))
     return digest_of([version(name) for name in MADE_BY], files)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+from prolepsis.system.sources import sources_in
 from prolepsis.system.text_files import read_text
 from prolepsis.terms.errors import KnowledgeError
 
@@ -45,7 +46,7 @@ def read_source(path: Path, *, built_in: bool = False) -> Source:
 @cache
 def built_in_sources() -> tuple[Source, ...]:
     """Return the files of the ontology that comes with the package, sorted by name."""
-    return tuple(read_source(path, built_in=True) for path in sorted(ONTOLOGY_FOLDER.glob("*.ttl")))
+    return tuple(read_source(path, built_in=True) for path in sources_in(ONTOLOGY_FOLDER, "ttl"))
 
 
 def sources_of(given: Sequence[Path | Source]) -> tuple[Source, ...]:

@@ -162,7 +162,8 @@ class PrologProcess:
                 self._launch(program, walls, ["-x", str(saved)])
                 return
             except (MissingToolError, OSError):
-                pass
+                # Half of it may fill the disk.
+                saved.unlink(missing_ok=True)
         self._launch(program, walls, files)
 
     def _launch(self, program: str, walls: Walls, start: Sequence[str]) -> None:

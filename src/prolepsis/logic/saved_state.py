@@ -8,7 +8,7 @@ from pathlib import Path
 
 from prolepsis.logic.confinement.start import KEPT_VARIABLES, home_of
 from prolepsis.system.cache import cache_root, kept_or_made
-from prolepsis.system.sources import digest_of
+from prolepsis.system.sources import digest_of, sources_in
 from prolepsis.terms.terms import format_atom
 
 OPTIONS = "class(development), autoload(false), stand_alone(false), foreign(no_save), goal(serve), toplevel(halt)"
@@ -39,10 +39,10 @@ def _key(program: str, code: Path, stack_limit: int) -> str:
     surroundings = [os.environ.get(name) for name in KEPT_VARIABLES]
     # A state holds Prolog's own libraries, too, which may be mended without the program.
     homes = [Path(home) for home in home_of(program)]
-    own = [Path(program).resolve(), *(file for home in homes for file in home.glob("library/**/*.pl"))]
+    own = [Path(program).resolve(), *(file for home in homes for file in sources_in(home / "library", "pl"))]
     own += [home / "boot.prc" for home in homes]
     seen = [(str(file), status.st_size, status.st_mtime_ns) for file in sorted(own) for status in [file.stat()]]
-    return digest_of((seen, surroundings, str(code), stack_limit), code.glob("*.pl"))[:32]
+    return digest_of((seen, surroundings, str(code), stack_limit), sources_in(code, "pl"))[:32]
 
 
 def _made(program: str, code: Path, stack_limit: int, folder: Path) -> bytes | None:

@@ -6,7 +6,6 @@ trial takes about a second; that it was passed is kept under all that MuJoCo has
 
 from __future__ import annotations
 
-import hashlib
 import os
 import signal
 import subprocess
@@ -17,6 +16,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from prolepsis.system.cache import cache_root, keep, read_kept
+from prolepsis.system.sources import digest_of
 from prolepsis.terms.errors import ScenarioError
 
 MEMORY = 4 * 2**30
@@ -38,10 +38,7 @@ def try_robot(path: Path, folder: Path | None, model: bytes, meshes: Iterable[Pa
     Raises:
         ScenarioError: If the process refuses it, or ends otherwise.
     """
-    seen = hashlib.sha256(f"1 mujoco {version('mujoco')}\n".encode() + model)
-    for mesh in sorted(set(meshes)):
-        seen.update(mesh.read_bytes())
-    passed = cache_root() / "robots" / seen.hexdigest()
+    passed = cache_root() / "robots" / digest_of((2, "mujoco", version("mujoco"), model), set(meshes))
     if read_kept(passed) is not None:
         return
     told = [] if folder is None else [str(folder.absolute())]

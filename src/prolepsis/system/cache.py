@@ -11,6 +11,7 @@ import os
 import stat
 import sys
 import tempfile
+import time
 from collections.abc import Callable
 from contextlib import suppress
 from functools import lru_cache
@@ -18,6 +19,11 @@ from pathlib import Path
 
 SEAL = b"prolepsis cache 1 "
 """Begins the first line of a file; the SHA-256 of its name and of what follows the line ends it."""
+
+PART = ".part"
+"""Ends the name of a file that is being written."""
+LEFT = 3600.0
+"""A part that has not been touched for so long is of a process that was killed [s]."""
 
 
 def cache_root() -> Path:
@@ -55,7 +61,8 @@ def keep(file: Path, content: bytes) -> None:
             each.mkdir(mode=0o700, exist_ok=True)
         if not _is_safe(file.parent):
             return
-        number, part = tempfile.mkstemp(prefix=".", suffix=".part", dir=file.parent)
+        _clear_parts(file.parent)
+        number, part = tempfile.mkstemp(prefix=".", suffix=PART, dir=file.parent)
         try:
             with open(number, "wb") as stream:
                 stream.write(_seal(file, content) + b"\n" + content)
@@ -68,6 +75,27 @@ def keep(file: Path, content: bytes) -> None:
             f"{file.parent}: nothing can be kept there ({error.strerror}), so what takes long is computed at each run;"
             " XDG_CACHE_HOME names another folder"
         )
+
+
+def keep_newest(folder: Path, most: int) -> None:
+    """Remove from a folder of the cache what was kept longest ago, until at most so many files are left; no others."""
+    with suppress(OSError):
+        files = [each for each in folder.iterdir() if not each.is_symlink() and each.is_file() and _is_ours(each)]
+        for old in sorted(files, key=lambda each: each.stat().st_mtime)[: max(len(files) - most, 0)]:
+            old.unlink(missing_ok=True)
+
+
+def _is_ours(file: Path) -> bool:
+    with file.open("rb") as stream:
+        return stream.read(len(SEAL)) == SEAL
+
+
+def _clear_parts(folder: Path) -> None:
+    for part in folder.glob(f".*{PART}"):
+        # Others may do the same meanwhile.
+        with suppress(OSError):
+            if time.time() - part.lstat().st_mtime > LEFT:
+                part.unlink()
 
 
 def kept_or_made(file: Path, make: Callable[[], bytes | None]) -> bytes | None:
@@ -87,8 +115,10 @@ def note(text: str) -> None:
 
 @lru_cache(maxsize=256)
 def _say(text: str) -> None:
-    if sys.stderr is not None:  # pyright: ignore[reportUnnecessaryComparison]
-        print(f"prolepsis: note: {text}", file=sys.stderr)
+    # Where it cannot be said, the answer is the same.
+    with suppress(OSError, ValueError):
+        if sys.stderr is not None:  # pyright: ignore[reportUnnecessaryComparison]
+            print(f"prolepsis: note: {text}", file=sys.stderr, flush=True)
 
 
 def _seal(file: Path, content: bytes) -> bytes:

@@ -16,10 +16,14 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from prolepsis.system.cache import cache_root, keep, read_kept
-from prolepsis.system.sources import digest_of
+from prolepsis.system.sources import digest_of, sources_in
 
 ROOMS = ("geometry", "fluents", "matter/liquids", "report", "scene/shapes")
 """Folders of the package that have kernels or kept arrays, with what is below them."""
+BESIDE = ("log/log.py",)
+"""Files of the package whose constants kernels use beside those of their rooms."""
+SETTINGS = ("OPT", "LOOP_VECTORIZE", "SLP_VECTORIZE", "BOUNDSCHECK", "DEBUGINFO_DEFAULT", "FULL_TRACEBACKS")
+"""What numba is told by its environment that changes what it compiles."""
 FORM = 2
 """Raised when what is kept of a kernel is written otherwise (``linking``)."""
 MADE_BY = ("numba", "llvmlite", "numpy", "scipy", "coacd")
@@ -97,8 +101,14 @@ class _Kept:
 
     def _file(self, sig: Any, codegen: Any) -> Path:
         function = self._function
-        key = repr((FORM, function.__module__, function.__qualname__, sig, codegen.magic_tuple()))
+        key = repr((FORM, function.__module__, function.__qualname__, sig, codegen.magic_tuple(), _settings()))
         return _folder() / f"{function.__name__}-{hashlib.sha256(key.encode()).hexdigest()[:32]}"
+
+
+def _settings() -> list[str]:
+    from numba.core import config  # pyright: ignore[reportMissingTypeStubs]
+
+    return [str(getattr(config, name, None)) for name in SETTINGS]
 
 
 def are_kept() -> bool:
@@ -111,7 +121,8 @@ def sources_digest() -> str:
     """Return a digest of the sources of kernels and kept arrays, and of the versions of what computes them."""
     package = Path(__file__).parent.parent
     made_by = sys.version_info, [version(name) for name in MADE_BY]
-    return digest_of(made_by, (file for room in ROOMS for file in (package / room).rglob("*.py")))
+    in_rooms = (file for room in ROOMS for file in sources_in(package / room, "py"))
+    return digest_of(made_by, (*in_rooms, *(package / file for file in BESIDE)))
 
 
 def _folder() -> Path:

@@ -12,6 +12,12 @@ def digest_of(known: object, files: Iterable[Path]) -> str:
     return _digest(known, ((file.name, file.read_bytes()) for file in sorted(files)))
 
 
+def sources_in(folder: Path, suffix: str) -> list[Path]:
+    """Return the files in a folder, or below it, that end so; not what an editor leaves beside them."""
+    files = (file for file in folder.rglob(f"*.{suffix}") if not file.name.startswith("."))
+    return sorted(file for file in files if file.is_file())
+
+
 def digest_of_texts(known: object, texts: Iterable[tuple[object, str]]) -> str:
     """Return a digest of what else is known, and of texts in their order with what is known of each."""
     return _digest(known, ((each, text.encode("utf-8", "surrogatepass")) for each, text in texts))

@@ -213,7 +213,12 @@ class ShellDents:
     def _other(self, state: Running, contact: int) -> str:
         """Return the name of the body that touches the shell at a contact."""
         a, b = state.touching()[contact]
-        return self._others[a] if a in self._others else self._others[b]
+        other = a if a in self._others else b
+        if other not in self._others:
+            # What emerged later has no pair: a shard of another shell.
+            other = b if a == int(state.model.geom(self._geom).id) else a
+            self._others[other] = state.model.body(int(state.model.geom_bodyid[other])).name
+        return self._others[other]
 
     def _press_in(self, state: Running, other: str, depth: float) -> None:
         for pair in self._pairs.get(other, ()):
