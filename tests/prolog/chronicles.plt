@@ -50,6 +50,10 @@ test(of_two_supports_lost_at_once_one_is_told, Done == [picking_up(h, e)-(1.0-2.
 test(slid_to_another_support, Done == []) :-
     done([ fluent(supports(t1, e), 0.0, 1.0), fluent(supports(t2, e), 0.98, 3.0),
            fluent(attached(h, e), 0.9, 3.0), event(moving(e), 0.9, 2.5) ], Done).
+test(lifted_by_two_hands_from_below, Done == [picking_up(h1, e)-(0.9-2.5), picking_up(h2, e)-(0.9-2.5)]) :-
+    done([ instance(h1, 'Gripper'), instance(h2, 'Gripper'), fluent(supports(t, e), 0.0, 1.0),
+           fluent(attached(h1, e), 0.9, 3.0), fluent(supports(h1, e), 0.8, 3.0),
+           fluent(attached(h2, e), 0.9, 3.0), fluent(supports(h2, e), 0.8, 3.0), event(moving(e), 1.0, 2.5) ], Done).
 test(falling_off_the_table, Done == []) :-
     done([ fluent(supports(t, e), 0.0, 1.0), event(falling(e), 1.0, 1.4), event(moving(e), 0.8, 1.4),
            fluent(supports(floor, e), 1.5, 3.0) ], Done).

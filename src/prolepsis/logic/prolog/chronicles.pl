@@ -199,4 +199,5 @@ is_hand(Thing) :-
 supported_by_another(Hand, Object, Time) :-
     Instant is Time,
     holds(supports(Other, Object), Instant),
-    Other \== Hand.
+    Other \== Hand,
+    \+ is_hand(Other).

@@ -13,6 +13,7 @@ from prolepsis.geometry.rotations import rotated, turned, wrapped, yaw_of
 from prolepsis.geometry.shape import FloatArray, Quaternion, Triple, triple
 from prolepsis.log.things import Thing
 from prolepsis.robots.commands import ArmSense, Sense
+from prolepsis.robots.hand import HAND as ROBOT
 from prolepsis.scene.extent import extent_along, middle
 
 STANDOFF = 0.08
@@ -35,6 +36,8 @@ HIGHER = (0.0, 0.004, 0.008)
 """Heights over the middle that are tried, so that the fingertips clear what the object lies on [m]."""
 ADJUSTMENTS = 4
 """Times that a grip is turned as an arm of five joints can turn the hand there, which moves its place a little."""
+PALM_ROOM = 0.01
+"""The palm of a hand that flies stays this far from what it grasps [m]."""
 ROLLS = (0.0, 90.0)
 """Rolls that are tried [degrees]: pads to the left and right, then above and below."""
 
@@ -87,14 +90,17 @@ def displacement_to(hand: Thing, object: Thing, sense: Sense, height: float = 0.
 
 
 def grasp_as_turned(hand: Thing, object: Thing, sense: Sense, height: float) -> GraspPose:
-    """Return the grasp pose for which the hand need not turn."""
-    here = sense.hands[hand.name]
-    width = grasping_width(here.orientation, as_seen(object, sense))
+    """Return the grasp pose for which the hand need not turn; what is too long for its fingers it holds by the end."""
+    here, seen = sense.hands[hand.name], as_seen(object, sense)
+    width = grasping_width(here.orientation, seen)
     displacement = displacement_to(hand, object, sense, height)
     forward = rotated(here.orientation, (1.0, 0.0, 0.0))
     if here.arm is not None:
         ahead, across = here.arm.held_at(width)
         displacement = displacement - ahead * forward - across * rotated(here.orientation, (0.0, 1.0, 0.0))
+    else:
+        palm = -ROBOT.palm_offset - ROBOT.palm_half_size[0]
+        displacement = displacement - max(extent_along(seen, forward) / 2 + PALM_ROOM - palm, 0.0) * forward
     return GraspPose(
         offset=_sum(here.offset, displacement), rotation=here.rotation, width=width, forward=triple(forward)
     )
