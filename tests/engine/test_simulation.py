@@ -89,6 +89,15 @@ def test_stacked_blocks_rest_and_bear_their_weight() -> None:
     assert np.abs(log.poses[-1, :, :3] - log.poses[0, :, :3]).max() < 1e-3
 
 
+def test_the_peak_of_a_contact_is_that_of_a_moment_however_short_the_substeps_are() -> None:
+    log = run(TWO_BLOCKS, duration=0.3, max_step=0.00025)
+    late = log.contacts.tick > 200
+    assert late.any()
+    force = np.linalg.norm(log.contacts.force[late], axis=1)
+    # At rest each of the four moments of a tick is as the others.
+    assert log.contacts.peak[late] == pytest.approx(force, rel=0.05)
+
+
 def test_a_diverging_simulation_is_invalid_and_says_when_and_where() -> None:
     composed = scene(falling_egg(0.2))
     world = compile_world(composed)
@@ -96,6 +105,15 @@ def test_a_diverging_simulation_is_invalid_and_says_when_and_where() -> None:
     program = read_program(parse_term("wait(0.01)"), composed)
     with pytest.raises(InvalidSimulationError, match=r"the simulation became unstable at 0\.\d{3} s at egg1"):
         simulate(world, program, duration=0.5)
+
+
+def test_a_run_in_which_the_engine_has_no_room_for_all_contacts_is_invalid() -> None:
+    composed = scene(TWO_BLOCKS)
+    world = compile_world(composed)
+    world.spec.memory = 3000
+    program = read_program(parse_term("wait(0.01)"), composed)
+    with pytest.raises(InvalidSimulationError, match=r"unstable at 0\.\d{3} s at block\d \(mjWARN_CNSTRFULL\)"):
+        simulate(world, program, duration=0.05)
 
 
 def test_things_that_overlap_at_the_start_are_refused() -> None:

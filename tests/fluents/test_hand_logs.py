@@ -72,6 +72,15 @@ def test_a_level_may_be_a_number(argument: float | str, level: float | str) -> N
     assert timeline.select(type="closingGripper")[0].evidence["level"] == level
 
 
+def test_of_two_grasps_the_level_is_that_of_the_one_that_goes_on_longer_while_the_gripper_closes() -> None:
+    draft = grasp_draft()
+    state = np.where((np.arange(1000) >= 100) & (np.arange(1000) < 300), -1.0, 0.0)
+    first = action("grasp", hand="rightGripper", object="egg1", force="force3", start=0, end=120)
+    second = action("grasp", hand="rightGripper", object="egg1", force="force7", start=120, end=400)
+    timeline = recognize(draft.log(channels={"rightGripper.gripper": state}, actions=(first, second)))
+    assert timeline.select(type="closingGripper")[0].evidence["level"] == "force7"
+
+
 def test_without_a_logged_state_the_gap_between_the_fingers_tells() -> None:
     draft = grasp_draft()
     way = np.concatenate((np.zeros(200), np.linspace(0, 0.02, 300), np.full(200, 0.02), np.linspace(0.02, 0, 300)))

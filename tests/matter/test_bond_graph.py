@@ -9,6 +9,7 @@ import pytest
 
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.matter.shells.bond_graph import BondGraph
+from prolepsis.matter.shells.breaking import Fragment
 from prolepsis.matter.shells.calibration import calibrated_graph
 from prolepsis.matter.shells.cutting import ellipsoid_normals, ellipsoid_points, ellipsoid_shell
 from prolepsis.terms.errors import KnowledgeError
@@ -130,3 +131,16 @@ def test_a_membrane_holds_a_cracked_bond_until_it_is_pulled_too_hard() -> None:
     pressed = cracked.settled(ends, -10.0 * away)
     assert pressed.loads(ends, -10.0 * away)[pressed.cracked].max() < 1
     assert len(graph.after_breaking(ring, 1.0).after_breaking(ring, 1.0).fragments()) == 2
+
+
+def test_no_force_below_the_screen_can_break_a_bond_and_one_not_far_above_can() -> None:
+    graph = egg_graph()
+    egg = Fragment(body="egg1", graph=graph, origin=np.zeros(3), calm=0.0)
+    egg.set([graph])
+    random = np.random.default_rng(1)
+    where, pull = (each / np.linalg.norm(each, axis=1, keepdims=True) for each in random.normal(size=(2, 300, 3)))
+    loads = [
+        float(graph.loads(point[None], egg.calm * force[None]).max())
+        for point, force in zip(where * AXES, pull, strict=True)
+    ]
+    assert 0.5 < max(loads) < 1.0

@@ -81,6 +81,24 @@ def test_a_piece_comes_off_a_boiled_egg_at_the_force_of_the_ontology() -> None:
     assert len(state.joints) == 29
 
 
+def test_a_piece_that_is_pressed_on_its_kernel_does_not_come_off_by_that() -> None:
+    state, controller = apart(":floor a :Floor . :egg1 a :HardBoiledEgg ; :z 0.5 .")
+    state.model.opt.gravity[:] = 0.0
+    go_on(state, controller)
+    go_on(state, controller)
+    pressed = state.world.scene.thing("eggshell1/piece17").name
+    out = next(hold.normal for hold in controller.holds if hold.held == state.world.scene.index(pressed))
+    body = state.data.body(pressed)
+    for tick in range(100):
+        state.data.joint("kernel1").qvel[:] = 0.0  # held fast
+        state.data.qfrc_applied[:] = 0.0
+        # In the end more than twice as much as it is held by.
+        force, nothing = -1.5 * min(tick / 60, 1.0) * out, np.zeros(3)
+        mujoco.mj_applyFT(state.model, state.data, force, nothing, body.xpos, body.id, state.data.qfrc_applied)
+        go_on(state, controller)
+    assert len(state.joints) == 30
+
+
 def test_joints_stay_in_place_when_a_shard_falls_apart() -> None:
     state = State.of(compile_world(scene(":floor a :Floor . :egg1 a :HardBoiledEgg ; :z 0.5 .")))
     (controller,) = started(state, Adhesion)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -63,6 +64,17 @@ def test_a_clay_rim_bears_what_its_yield_stress_and_section_say() -> None:
     assert pushed.gives_way_at() == pytest.approx((resists.moment - weight_arm) / resists.lever, rel=0.05)
     # Hoop at both sides of a panel of a tenth, by hand: 2 sin 18 deg x 30 kPa x 8 mm x arc x mean height.
     assert resists.moment == pytest.approx(2 * 0.309 * 30e3 * 0.008 * 0.078 * 0.024, rel=0.1)
+
+
+def test_the_foot_of_a_clay_wall_bends_plastically_however_many_panels_there_are() -> None:
+    bowl = scene(":floor a :Floor . :bowl1 a :ClayBowl ; :on :floor .").thing("bowl1")
+    q = bowl.quantities
+    four, twenty = (resistance(replace(bowl, quantities={**q, "panelCount": n})).moment for n in (4.0, 20.0))
+    # Of n panels the hoop gives each 2 sin(pi / n) h and the bending b / n: what is left of both without h is b.
+    more = math.sin(math.pi / 4) / math.sin(math.pi / 20)
+    bending = (four - more * twenty) / (1 / 4 - more / 20)
+    around = math.tau * bowl.shape.profile[1][0]
+    assert bending == pytest.approx(q["yieldStress"] * around * q["thickness"] ** 2 / 4, rel=0.1)
 
 
 def test_a_dent_in_clay_stays_and_what_was_elastic_springs_back() -> None:

@@ -143,3 +143,31 @@ def test_a_push_is_done_if_its_force_was_there(force: float, outcome: str, reaso
             said += behaviour.send(hand.sense(0.0))
     last = [each for each in said if isinstance(each, End)][-1]
     assert (last.outcome, last.evidence.get("reason", "")) == (outcome, reason)
+
+
+class Pinching(FakeHand):
+    """A hand whose pads press with other forces than they are told, and may not come to rest."""
+
+    share, restless = 1.0, False
+
+    def sense(self, time: float) -> Sense:
+        full, motion = super().sense(time), -1 if self.restless else 0
+        hands = {n: replace(h, pad_force=self.share * h.pad_force, motion=motion) for n, h in full.hands.items()}
+        return replace(full, hands=hands)
+
+
+@pytest.mark.parametrize(("share", "outcome"), [(0.85, "not_reached"), (1.05, "done"), (1.15, "not_reached")])
+def test_a_grasp_that_presses_too_much_has_not_reached_its_force_either(share: float, outcome: str) -> None:
+    hand = Pinching((0.0, 0.0, 0.722))
+    hand.share = share
+    said = carried_out("close(hand1, 5)", scene(EGG_IN_HAND), hand)
+    assert [each.outcome for _, each in said if isinstance(each, End)] == [outcome]
+
+
+def test_a_closing_that_does_not_come_to_rest_is_given_up() -> None:
+    hand = Pinching((0.0, 0.0, 0.722))
+    hand.restless = True
+    said = carried_out("close(hand1, 5)", scene(EGG_IN_HAND), hand)
+    ((tick, end),) = [(tick, each) for tick, each in said if isinstance(each, End)]
+    assert (tick, end.outcome) == (8000, "timed_out")
+    assert end.evidence["reason"] == "hand1 does not come to rest on egg1"
