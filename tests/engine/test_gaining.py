@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from tests.scenes import run
 
+from prolepsis.engine.gaining import Surroundings, gains
+from prolepsis.engine.stretches import Matter, Movers, Stretch
+from prolepsis.log.log import Contacts, Joints, Particles
+from prolepsis.log.things import Thing
+from prolepsis.system.mujoco import mujoco
 from prolepsis.terms.errors import InvalidSimulationError
 
 FLOOR = ":floor a :Floor . "
@@ -62,3 +68,39 @@ def test_what_a_hand_lifts_and_lets_go_is_an_answer() -> None:
         duration=5.0,
     )
     assert log.poses[:, log.index("b"), 2].max() > 0.78
+
+
+HAND_PLATE_BALL = """
+<mujoco><worldbody>
+  <body name="hand"><joint type="slide"/><geom size=".01"/></body>
+  <body name="plate"><freejoint/><geom size=".01"/></body>
+  <body name="ball"><freejoint/><geom size=".01"/></body>
+</worldbody></mujoco>
+"""
+
+
+@pytest.mark.parametrize(("let_go", "found"), [(100, []), (20, [131])])
+def test_what_a_hand_pressed_may_spring_back_for_a_moment_when_it_lets_go(let_go: int, found: list[int]) -> None:
+    # A ball on a plate that a hand holds: it hops at 0.1 s, comes back, and at 0.131 s is thrown up by 5 cm.
+    model = mujoco.MjModel.from_xml_string(HAND_PLATE_BALL)
+    things = tuple(Thing(name=name, kind="Thing") for name in ("hand", "plate", "ball"))
+    bodies, count = Movers.of(model, np.arange(1, 4)), 180
+    poses = np.tile((0.0, 0.0, 0.1, 1.0, 0.0, 0.0, 0.0), (count, 3, 1))
+    for start, end, speed in ((101, 125, 0.118), (131, count, 1.0)):
+        since = np.arange(end - start) * 0.001
+        poses[start:end, 2, 2] += speed * since - 9.81 / 2 * since**2
+    rows = [(tick, 0, 1) for tick in range(let_go)]
+    rows += [(tick, 1, 2) for tick in (*range(101), *range(125, 131))]
+    tick, a, b = np.array(sorted(rows)).T
+    three, none = np.zeros((len(tick), 3)), np.zeros((0, 3), dtype=np.bool_)
+    around = Surroundings(
+        contacts=Contacts(tick=tick, a=a, b=b, force=three, normal=three, point=three, peak=np.zeros(len(tick))),
+        joints=(Joints(), Joints()),
+        wet=none,
+        driven=none,
+        mass=np.zeros((0, 3)),
+        particles=Particles(),
+    )
+    stretch = Stretch(start=0, end=count, matter=Matter.of(model, things), bodies=bodies)
+    made = list(gains(things, poses, around, [stretch], np.array([0.0, 0.0, -9.81]), 0.001))
+    assert [(gain.tick, gain.thing) for gain in made] == [(tick, 2) for tick in found]

@@ -83,3 +83,17 @@ def test_two_stated_things_are_two_however_it_is_said(tmp_path: Path, meaning: s
         loaded(tmp_path, f"{told} {meaning} rdfs:subClassOf :Ball . :Ball owl:disjointWith :Block .")
     with pytest.raises(InconsistentError, match="b1 bears b2"):
         loaded(tmp_path, f"{told} :Loaded a owl:Class ; owl:equivalentClass {meaning} ; owl:disjointWith :Block .")
+
+
+@pytest.mark.parametrize(("most", "clash"), [(1, True), (2, False)])
+def test_not_at_most_one_is_at_least_two(tmp_path: Path, most: int, clash: bool) -> None:
+    many = f"[ a owl:Class ; owl:complementOf {counted('maxQualifiedCardinality', 1)} ]"
+    told = f":Loaded a owl:Class ; rdfs:subClassOf {many} . :Light a owl:Class ; rdfs:subClassOf "
+    told += (
+        f"{counted('maxQualifiedCardinality', most)} . :bears a owl:ObjectProperty . :b1 a :Block , :Loaded , :Light ."
+    )
+    if clash:
+        with pytest.raises(InconsistentError):
+            loaded(tmp_path, told)
+    else:
+        assert loaded(tmp_path, told).is_a("b1", "Loaded")

@@ -118,3 +118,10 @@ def test_every_example_situation_loads(path: Path) -> None:
     assert base.objects
     solids = [name for name in base.objects if not base.is_a(name, "Liquid")]
     assert all(base.quantity(name, "friction") > 0.0 for name in solids)
+
+
+def test_all_that_follows_of_one_of_two_things_is_found(tmp_path: Path) -> None:
+    classes = ":Red a owl:Class . :Soft a owl:Class . :Block rdfs:subClassOf :Red , :Soft . "
+    base = load(tmp_path, classes + ":Ball rdfs:subClassOf :Red , :Soft . :toy1 a :Toy . " + TOY)
+    assert not base.unchecked
+    assert [base.is_a("toy1", name) for name in ("Red", "Soft", "Block", "Ball")] == [True, True, False, False]

@@ -11,6 +11,7 @@ TABLE = Fact(kind="fluent", type="supports", args=("table1", "egg1"), start=0.0,
 AGAIN = Fact(kind="fluent", type="supports", args=("table1", "egg1"), start=2.0, end=3.0)
 FLOOR = Fact(kind="fluent", type="supports", args=("floor", "egg1"), start=0.6, end=3.0)
 FALL = Fact(kind="event", type="falling", args=("egg1",), start=0.4, end=0.6)
+AT_ONCE = Fact(kind="event", type="falling", args=("egg1",), start=0.0, end=0.6)
 INSIDE = Fact(kind="fluent", type="contains", args=("cup1", "liq1"), start=0.0, end=1.5, evidence={"fill": 0.5})
 ELSEWHERE = Fact(kind="fluent", type="contains", args=("cup2", "liq1"), start=1.2, end=3.0)
 ON, IN, WET = ("on", "egg1", "table1"), ("contains", "cup1", "liq1"), ("wetWith", "hand1", "liq1")
@@ -29,6 +30,7 @@ def timeline(relation: tuple[str, str, str], *facts: Fact) -> Timeline:
         pytest.param(ON, (FALL, FLOOR), 0.4, id="until a fall"),
         pytest.param(ON, (FLOOR,), 0.6, id="until something else bears it"),
         pytest.param(ON, (FALL, AGAIN), 0.4, id="until a fall although it comes back"),
+        pytest.param(ON, (AT_ONCE,), 0.001, id="for a tick when it falls at once"),
         pytest.param(IN, (INSIDE, ELSEWHERE), 1.5, id="with the fluent of its own name"),
         pytest.param(IN, (ELSEWHERE,), 1.2, id="until it is elsewhere"),
         pytest.param(WET, (FALL, FLOOR), 3.0, id="of what no fluent shows"),

@@ -37,6 +37,12 @@ def test_facts_about_parts_of_one_whole_are_told_as_one() -> None:
     assert row.evidence == "facts=7, force=1..7"
 
 
+def test_a_short_fact_within_a_long_one_ends_no_burst() -> None:
+    facts = [lying("a", 1.0, 4.0), lying("cap", 1.1, 1.2), lying("left", 3.0, 4.0)]
+    (row,) = fold(facts, known(*shards(*SHARDS)))
+    assert (row.what, row.start, row.end) == ("supports(floor,[3 parts of jar])", 1.0, 4.0)
+
+
 def test_how_many_are_meant_is_told() -> None:
     assert told([lying(name) for name in SHARDS[:3]], known(*shards(*SHARDS))) == ["supports(floor,[3 parts of jar])"]
 

@@ -6,7 +6,12 @@ import math
 
 import numpy as np
 import pytest
-from tests.scenes import run
+from tests.scenes import run, scene
+
+from prolepsis.engine.simulation import simulate
+from prolepsis.engine.world import compile_world
+from prolepsis.programs.program import Program
+from prolepsis.robots.commands import Behaviour, OpenGripper, Sense
 
 BLOCK_IN_HAND = (
     ":floor a :Floor . :table1 a :Table . "
@@ -79,3 +84,26 @@ def test_the_more_slippery_surface_decides() -> None:
     wet = run(BLOCK_IN_HAND + " :hand1 :wet true .", plan)
     heights = [float(log.poses[-1, log.index("block1"), 2]) for log in (dry, wet)]
     assert heights[0] - heights[1] > 0.04
+
+
+def test_what_presses_on_both_fingers_from_outside_is_not_between_the_pads() -> None:
+    wall = ":wall{0} a :Obstacle ; :on :table1 ; :y {1} ; :length 0.1 ; :width 0.04 ; :height 0.15 . "
+    walls = wall.format(1, 0.05) + wall.format(2, -0.05)
+    between = scene(
+        ":floor a :Floor . :table1 a :Table . " + walls + ":hand1 a :Gripper ; :pitch 90.0 ; :z 0.8 ; :opening 0.02 ."
+    )
+    held: set[str] = set()
+    touched: set[str] = set()
+
+    def opening(sense: Sense) -> Behaviour:
+        sense = yield (OpenGripper(hand="hand1", width=0.08, speed=0.2),)
+        for _ in range(400):
+            sense = yield ()
+            here = sense.hands["hand1"]
+            held.update(here.held())
+            touched.update(here.fingers())
+        return sense
+
+    simulate(compile_world(between), Program(term="opening", begin=opening), duration=0.4)
+    assert touched == {"wall1", "wall2"}
+    assert not held
