@@ -89,13 +89,12 @@ def test_stacked_blocks_rest_and_bear_their_weight() -> None:
     assert np.abs(log.poses[-1, :, :3] - log.poses[0, :, :3]).max() < 1e-3
 
 
-def test_the_peak_of_a_contact_is_that_of_a_moment_however_short_the_substeps_are() -> None:
-    log = run(TWO_BLOCKS, duration=0.3, max_step=0.00025)
-    late = log.contacts.tick > 200
-    assert late.any()
-    force = np.linalg.norm(log.contacts.force[late], axis=1)
-    # At rest each of the four moments of a tick is as the others.
-    assert log.contacts.peak[late] == pytest.approx(force, rel=0.05)
+def test_the_peak_of_a_blow_is_that_of_a_moment_however_many_there_are_in_a_tick() -> None:
+    log = run(falling_egg(0.005), duration=0.1)
+    mean = np.abs(np.einsum("ci,ci->c", log.contacts.force, log.contacts.normal))
+    # Of the four moments of a tick each has its force: the greatest is more than their mean, and less than their sum.
+    assert len(mean) and (log.contacts.peak > 1.1 * mean).all()
+    assert np.median(log.contacts.peak / mean) < 3.0
 
 
 def test_a_diverging_simulation_is_invalid_and_says_when_and_where() -> None:
