@@ -121,6 +121,11 @@ def main() -> int:
         if name not in known:
             read.error(f"no change named {name!r}; known: {', '.join(known)}")
     chosen = [known[name] for name in given.only or known]
+    for each in chosen:
+        try:
+            each.broken((ROOT / "src" / "prolepsis" / each.file).read_text(encoding="utf-8"))
+        except (OSError, ValueError) as error:
+            read.error(str(error))
 
     def tell(mutation: Mutation) -> bool:
         begin = time.perf_counter()
