@@ -9,6 +9,7 @@ import pytest
 from tests.fluents.worlds import FLOOR, HAND, HAND_DRIVES, STEP, ball, box, roll, world
 
 from prolepsis.geometry.shape import FloatArray
+from prolepsis.log.checks import check_log
 from prolepsis.log.log import Log
 from prolepsis.log.things import Thing
 from prolepsis.system.mujoco import mujoco
@@ -127,3 +128,40 @@ def test_names_that_clash_are_refused() -> None:
     model, states = roll(world('<geom name="a" type="plane" size="1 1 1"/>' + box("a", "0 0 .05")), 0.01)
     with pytest.raises(InputError, match="several things are called a"):
         Log.from_mujoco(model, states, STEP)
+
+
+def beads(*names: str) -> tuple[Any, FloatArray]:
+    """Return the rollout of balls side by side, with a hand."""
+    balls = "".join(ball(name, f"{0.2 * k} 1 .03") for k, name in enumerate(names))
+    return roll(world(FLOOR + HAND + balls, HAND_DRIVES), 0.01)
+
+
+def test_like_bodies_become_parts_of_a_stuff_that_is_no_body() -> None:
+    model, states = beads("bead1", "bead2", "pea")
+    log = Log.from_mujoco(model, states, STEP, stuffs={"beads": "bead?"})
+    stuff = log.index("beads")
+    assert stuff == len(log.things) - 1
+    assert (log.things[stuff].kind, log.things[stuff].roles) == ("Granular", {"Stuff"})
+    assert log.things[stuff].mass == pytest.approx(0.4)
+    assert {thing.name for thing in log.things if thing.whole == "beads"} == {"bead1", "bead2"}
+    assert (log.carrier[:, stuff] == -1).all()
+    check_log(log)
+
+
+@pytest.mark.parametrize(
+    ("stuffs", "message"),
+    [
+        ({"beads": "beed*"}, r"stuffs: beads: no thing named 'beed\*'; did you mean 'bead[12]'"),
+        ({"beads": "Bead*"}, "no thing named"),
+        ({"fingers": "hand/*"}, "no thing named 'hand/"),
+        ({"beads": "bead*", "ones": "*1"}, r"bead1 matches 'bead\*' of beads and '\*1' of ones; allowed: one of them"),
+        ({"beads": "*"}, r"floor matches '\*', but is fixed; a stuff consists of what moves freely"),
+        ({"beads": "[bh]*"}, "hand matches .*, but is moved by actuators"),
+        ({"pea": "bead*"}, "'pea' is the name of a thing already"),
+        ({"": "bead*"}, "'' is the name of a thing already, or none"),
+    ],
+)
+def test_a_stuff_that_cannot_be_one_is_refused(stuffs: dict[str, str], message: str) -> None:
+    model, states = beads("bead1", "bead2", "pea")
+    with pytest.raises(InputError, match=message):
+        Log.from_mujoco(model, states, STEP, stuffs=stuffs)

@@ -79,11 +79,15 @@ def roll(xml: str, seconds: float, control: Control | None = None, dt: float = S
 
 
 def watch(
-    xml: str, seconds: float, control: Control | None = None, scene: Mapping[str, Thing] | None = None
+    xml: str,
+    seconds: float,
+    control: Control | None = None,
+    scene: Mapping[str, Thing] | None = None,
+    stuffs: Mapping[str, str] | None = None,
 ) -> Timeline:
     """Return the timeline of a rollout."""
     model, states = roll(xml, seconds, control)
-    return recognize(Log.from_mujoco(model, states, STEP, scene))
+    return recognize(Log.from_mujoco(model, states, STEP, scene, stuffs=stuffs))
 
 
 def ramp(time: float, start: float, end: float, height: float) -> float:

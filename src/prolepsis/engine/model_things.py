@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from prolepsis.engine.granular_things import with_stuffs
 from prolepsis.geometry.shape import IntArray, quaternion, triple
 from prolepsis.log.things import FIXED, FREE, Mount, Thing, jointed
 from prolepsis.robots.model_shapes import shape_of_geoms
@@ -29,18 +30,20 @@ class ModelThings:
     """The things of a model, and where each body and geom of the model went."""
 
     things: tuple[Thing, ...]
-    """World geoms first, then bodies in the model's order."""
+    """World geoms first, then bodies in the model's order, then stuffs that consist of some of these."""
     body: IntArray
-    """Model body of each thing, 0 for world geoms, shape (n,)."""
+    """Model body of each thing, 0 for world geoms and stuffs, shape (n,)."""
     carrier: IntArray
-    """Index of the thing whose rigid body carries each thing, shape (n,)."""
+    """Index of the thing whose rigid body carries each thing, -1 for a stuff, shape (n,)."""
     of_geom: IntArray
     """Index of the carrying thing of each geom of the model, or -1 if it is of none, shape (ngeom,)."""
     of_body: IntArray
     """Index of the carrying thing of each body of the model, -1 for the world, shape (nbody,)."""
 
 
-def model_things(model: Any, data: Any, scene: SceneThings | None = None) -> ModelThings:
+def model_things(
+    model: Any, data: Any, scene: SceneThings | None = None, stuffs: Mapping[str, str] | None = None
+) -> ModelThings:
     """Return the things of a model in the state that ``data`` holds.
 
     A nested body without a joint belongs to the rigid body of its parent, which is then its carrier. Roles
@@ -52,10 +55,11 @@ def model_things(model: Any, data: Any, scene: SceneThings | None = None) -> Mod
         data: Its ``mujoco.MjData``, after ``mj_kinematics``.
         scene: Things that take the place of those found here, by name: their kind, roles, whole, quantities,
             colour, and their shape and mass if they have any.
+        stuffs: For each set of like bodies that is one stuff its name, and the pattern of theirs.
 
     Raises:
-        UnknownNameError: If ``scene`` names what the model has not.
-        InputError: If two things would have the same name.
+        UnknownNameError: If ``scene`` or ``stuffs`` names what the model has not.
+        InputError: If two things would have the same name, or a stuff cannot be one.
     """
     world_geoms = _world_geoms(model)
     bodies = list(range(1, model.nbody))
@@ -75,8 +79,14 @@ def model_things(model: Any, data: Any, scene: SceneThings | None = None) -> Mod
         of_geom[geoms] = index[name]
     carrier = np.array([*range(len(world_geoms)), *(of_body[body] for body in bodies)], dtype=np.int64)
     body_of = np.array([0] * len(world_geoms) + bodies, dtype=np.int64)
+    found = with_stuffs(tuple(things), stuffs or {})
+    more = len(found) - len(things)
     return ModelThings(
-        things=_overridden(tuple(things), scene), body=body_of, carrier=carrier, of_geom=of_geom, of_body=of_body
+        things=_overridden(found, scene),
+        body=np.append(body_of, np.zeros(more, dtype=np.int64)),
+        carrier=np.append(carrier, np.full(more, -1)),
+        of_geom=of_geom,
+        of_body=of_body,
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,13 @@ _LARGEST = 1e10
 """MuJoCo calls a coordinate beyond this unstable (``mjMAXVAL``)."""
 
 
-def read_rollout(model: Any, states: FloatArray, dt: float, scene: SceneThings | None = None) -> Log:
+def read_rollout(
+    model: Any,
+    states: FloatArray,
+    dt: float,
+    scene: SceneThings | None = None,
+    stuffs: Mapping[str, str] | None = None,
+) -> Log:
     """Return the log of a rollout.
 
     Each state is set and ``mj_forward`` run on it, so positions, contacts and their forces are those that
@@ -29,9 +35,10 @@ def read_rollout(model: Any, states: FloatArray, dt: float, scene: SceneThings |
         states: Full integration states (``mjSTATE_INTEGRATION``), one a tick, shape (T, k).
         dt: Time between two states [s].
         scene: Things that say more of those in the model (kind, roles, ...), by name; optional.
+        stuffs: For each set of like bodies that is one stuff its name, and the pattern of theirs; optional.
 
     Raises:
-        InputError: If ``states`` has the wrong shape or ``dt`` is not positive.
+        InputError: If ``states`` has the wrong shape or ``dt`` is not positive, or a stuff cannot be one.
         InvalidSimulationError: If a state is not finite or MuJoCo warns of one.
     """
     states = np.asarray(states, dtype=np.float64)
@@ -45,7 +52,7 @@ def read_rollout(model: Any, states: FloatArray, dt: float, scene: SceneThings |
     data = mujoco.MjData(model)
     mujoco.mj_setState(model, data, states[0], signature)
     mujoco.mj_kinematics(model, data)
-    found = model_things(model, data, scene)
+    found = model_things(model, data, scene, stuffs)
     tick_count = len(states)
     poses = np.zeros((tick_count, len(found.things), 7))
     poses[:, :, 3] = 1.0

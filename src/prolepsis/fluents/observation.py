@@ -125,6 +125,12 @@ def observe(log: Log) -> Observation:
     )
 
 
+def named(observation: Observation) -> IntArray:
+    """Return for each thing that is a unit the thing that facts name for it, for a blob its stuff, shape (n,)."""
+    index = {thing.name: i for i, thing in enumerate(observation.log.things)}
+    return np.array([index.get(name, i) for i, name in enumerate(observation.unit_names)], dtype=np.int64)
+
+
 def is_loose(observation: Observation, unit: int) -> bool:
     """Return whether a unit is neither fixed nor moved or held by a robot or a mount, so that weight can move it."""
     fixed = observation.log.things[unit].fixed

@@ -219,7 +219,13 @@ class Log:
 
     @classmethod
     def from_mujoco(
-        cls, model: Any, states: FloatArray, dt: float, scene: Mapping[str, Thing] | Sequence[Thing] | None = None
+        cls,
+        model: Any,
+        states: FloatArray,
+        dt: float,
+        scene: Mapping[str, Thing] | Sequence[Thing] | None = None,
+        *,
+        stuffs: Mapping[str, str] | None = None,
     ) -> Log:
         """Return the log of any MuJoCo rollout; see ``docs/grounding.md``.
 
@@ -229,11 +235,14 @@ class Log:
             dt: Time between two states [s].
             scene: Things that say more of those in the model (kind, roles, ...), by name. Without it every
                 named top-level body is a thing.
+            stuffs: Sets of like bodies each of which is one stuff, as a liquid is: its name, and a pattern of
+                theirs, ``{"beads": "bead*"}``.
 
         Raises:
-            InputError: If ``states`` has the wrong shape.
+            InputError: If ``states`` has the wrong shape, or a stuff cannot be one.
+            UnknownNameError: If ``scene`` or ``stuffs`` names what the model has not.
             InvalidSimulationError: If a state is not finite or MuJoCo warns of one.
         """
         from prolepsis.engine.rollout import read_rollout
 
-        return read_rollout(model, states, dt, scene)
+        return read_rollout(model, states, dt, scene, stuffs)

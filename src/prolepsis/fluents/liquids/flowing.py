@@ -9,7 +9,7 @@ import numpy as np
 
 from prolepsis.fluents.intervals import close_gaps, runs, ticks_of
 from prolepsis.fluents.liquids.particle_locations import Inside, ParticleLocations, particle_locations
-from prolepsis.fluents.observation import Observation
+from prolepsis.fluents.observation import Observation, named
 from prolepsis.fluents.registry import event
 from prolepsis.fluents.solids.containment import NOTICEABLE_FRACTION
 from prolepsis.geometry.rotations import rotate
@@ -90,7 +90,7 @@ def _whereabouts(observation: Observation, seen: ParticleLocations) -> IntArray:
     for inside in reversed(seen.inside):
         # What already touches something else within an open hollow is with that, unless it is in the pool.
         at[inside.pool | (inside.hollow & (seen.manner == 0))] = inside.unit
-    at[holder >= 0] = observation.unit[holder[holder >= 0]]
+    at[holder >= 0] = observation.of(named)[observation.unit[holder[holder >= 0]]]
     at[holder == PARKED] = -1
     return at
 

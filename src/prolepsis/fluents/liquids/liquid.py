@@ -9,7 +9,7 @@ import numpy as np
 from prolepsis.fluents.intervals import debounce
 from prolepsis.fluents.liquids.liquid_motion import FLOWING_SPEED, particle_speeds
 from prolepsis.fluents.liquids.particle_locations import ParticleLocations, particle_locations
-from prolepsis.fluents.observation import Observation
+from prolepsis.fluents.observation import Observation, named
 from prolepsis.fluents.registry import event, fluent
 from prolepsis.fluents.solids.containment import CONTAINED_GAP, CONTAINED_LEAST, NOTICEABLE_FRACTION
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
@@ -143,11 +143,12 @@ def opened(mask: BoolArray, frames: int) -> BoolArray:
 
 def _held(observation: Observation, seen: ParticleLocations, stuff: int) -> dict[int, FloatArray]:
     """Return the share of a stuff that each unit holds within itself in each frame."""
+    naming = observation.of(named)
     chosen = seen.particles.stuff == stuff
     holder = seen.particles.holder[:, chosen]
     units: dict[int, FloatArray] = {}
     for thing in sorted(set(holder[holder >= 0].tolist())):
-        unit = int(observation.unit[thing])
+        unit = int(naming[observation.unit[thing]])
         units[unit] = units.get(unit, np.zeros(len(holder))) + (holder == thing) @ seen.share[chosen]
     return units
 

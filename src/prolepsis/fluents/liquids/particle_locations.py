@@ -15,8 +15,9 @@ import numpy.typing as npt
 from prolepsis.fluents.hollows import NEAR, PLUG, hollows_of
 from prolepsis.fluents.intervals import ticks_of
 from prolepsis.fluents.kernels.matter import assembled
-from prolepsis.fluents.observation import Observation, is_held_from_outside
+from prolepsis.fluents.observation import Observation, is_held_from_outside, named
 from prolepsis.fluents.shapes_in_time import Part, RigidShape, rigid_shapes
+from prolepsis.fluents.solids.contact import is_stuff
 from prolepsis.geometry.hollows import BLOCKED, Space
 from prolepsis.geometry.rotations import rotate, rotate_back
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
@@ -123,7 +124,7 @@ class ParticleLocations:
     manner: Bits
     """How particles that are in no pool touch a surface: 0 not at all, 1 beside a wall, 2 on top, 3 resting; (F, P)."""
     on: npt.NDArray[np.int16]
-    """Which unit they touch so, shape (F, P)."""
+    """Which unit they touch so, or which stuff of bodies, shape (F, P)."""
 
     def stuffs(self) -> list[int]:
         """Return the indices of the liquids."""
@@ -177,7 +178,7 @@ def _inside(observation: Observation, particles: Particles, loose: BoolArray) ->
     found: dict[int, tuple[float, Inside]] = {}
     for shape in observation.of(rigid_shapes):
         unit = int(observation.unit[shape.body])
-        if not shape.is_hollow or is_held_from_outside(observation, unit):
+        if not shape.is_hollow or is_held_from_outside(observation, unit) or is_stuff(observation, unit):
             continue
         low, high = shape.bounds()
         frames = shape.during[particles.tick]
@@ -307,7 +308,7 @@ def _touching(
     manner = np.zeros(loose.shape, dtype=np.uint8)
     on = np.full(loose.shape, -1, dtype=np.int16)
     gap = np.full(loose.shape, np.inf, dtype=np.float32)
-    own = {each.unit: each.hollow for each in inside}
+    own, naming = {each.unit: each.hollow for each in inside}, observation.of(named)
     free, in_hollow = loose.copy(), np.zeros_like(loose)
     for each in inside:
         free &= ~each.pool
@@ -324,7 +325,7 @@ def _touching(
         poses = np.ascontiguousarray(observation.log.poses[particles.tick, shape.body])
         touch_surfaces(
             particles.position, particles.tick, observation.dt, look, poses, observation.up, assembled(shape.parts),
-            low, high, TOUCH_REACH * spacing, LEVEL_COSINE, RESTING_SPEED, unit, manner, on, gap,
+            low, high, TOUCH_REACH * spacing, LEVEL_COSINE, RESTING_SPEED, int(naming[unit]), manner, on, gap,
         )  # fmt: skip
     free &= (manner > 0) | ~in_hollow
     pile_up(

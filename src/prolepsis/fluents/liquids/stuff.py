@@ -1,6 +1,6 @@
-"""Stuffs (yolk, white, liquids) outside every container: ``spilled``, ``spilling``, and what supports them.
+"""Stuffs of many bodies (beads, grains) outside every container: ``spilled``, ``spilling``, and what supports them.
 
-A stuff is many blobs; each is judged alone, and facts name the stuff when the noticeable fraction does so.
+Each body, a blob, is judged alone, and facts name the stuff when the noticeable fraction does so.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import numpy as np
 
 from prolepsis.fluents.intervals import debounce, mask_of, union
 from prolepsis.fluents.kinematics import surface_speeds
+from prolepsis.fluents.liquids.blobs_in_hollows import blobs_in_hollows
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event, fluent
 from prolepsis.fluents.solids.contact import FLICKER, is_stuff
@@ -28,6 +29,8 @@ STUFF_GAP = 0.1
 """Gap in what a stuff does that is not noticed [s]."""
 STUFF_LEAST = 0.05
 """Shortest time that a stuff is seen to do something [s]."""
+LINGERING = 0.1
+"""Time for which a blob must lie outside to be there [s]: what bounces off or brushes past is still under way."""
 MOST = 0.5
 """Share of a stuff's mass [1] that must move or fall for the stuff to do so."""
 
@@ -40,7 +43,7 @@ def spilled(observation: Observation) -> Iterator[Fact]:
     lying = observation.of(outside_masks)
     for stuff, shares in observation.of(blob_shares).items():
         fraction = _share(observation, shares, lying)
-        mass = observation.log.things[stuff].mass or sum(observation.log.things[b].mass for b in shares)
+        mass = _mass(observation, stuff, shares)
         for start, end in _noticed(observation, fraction):
             greatest = float(fraction[start:end].max())
             evidence = {"fraction": greatest, "mass": greatest * mass}
@@ -63,19 +66,19 @@ def spilling(observation: Observation) -> Iterator[Fact]:
 @fluent("supports", "o1", "o2")
 def supports_stuff(observation: Observation) -> Iterator[Fact]:
     """o1 bears at least a tenth of o2's weight through contacts that lie under o2, and o2's weight is balanced."""
-    free = observation.of(uncontained_masks)
-    known = observation.of(support_runs)
+    bearing = {pair: mask_of(s, observation.tick_count) for pair, s in observation.of(support_runs).items()}
     for stuff, shares in observation.of(blob_shares).items():
-        resting: dict[int, dict[int, BoolArray]] = {}
-        for (below, above), stretches in known.items():
-            if above in shares and not is_stuff(observation, below):
-                mask = mask_of(stretches, observation.tick_count) & free[above]
-                resting.setdefault(below, {})[above] = mask
-        for below, masks in sorted(resting.items()):
-            fraction = _share(observation, shares, masks)
+        surfaces = {below for below, above in bearing if above in shares and not is_stuff(observation, below)}
+        mass = _mass(observation, stuff, shares)
+        for below in sorted(surfaces):
+            rows = [
+                (b, above, mask) for (b, above), mask in bearing.items() if above in shares and b in {below, *shares}
+            ]
+            fraction = _share(observation, shares, _piled(observation, rows, {below}))
             args = observation.unit_names[below], observation.log.things[stuff].name
             for start, end in _noticed(observation, fraction):
-                evidence = {"fraction": float(fraction[start:end].max())}
+                greatest = float(fraction[start:end].max())
+                evidence = {"fraction": greatest, "mass": greatest * mass}
                 yield observation.fact("fluent", "supports", args, (start, end), evidence)
 
 
@@ -103,28 +106,56 @@ def uncontained_masks(observation: Observation) -> dict[int, BoolArray]:
 
 def outside_masks(observation: Observation) -> dict[int, BoolArray]:
     """Return whether each blob lies on a surface, or on others that do, outside every container, shape (T,) each."""
-    free, count = observation.of(uncontained_masks), observation.tick_count
-    found = {blob: np.zeros(count, dtype=np.bool_) for blob in free}
-    among: list[tuple[int, int, BoolArray]] = []
+    free, count, dt = observation.of(uncontained_masks), observation.tick_count, observation.dt
+    rows: list[tuple[int, int, BoolArray]] = []
     for touch in observation.of(touches):
         if touch.a not in free and touch.b not in free:
             continue
-        mask = mask_of(debounce(touch.mask(count, observation.dt), observation.dt, gap=FLICKER), count)
+        mask = mask_of(debounce(touch.mask(count, dt), dt, gap=FLICKER), count)
         for below, above, bearing in ((touch.a, touch.b, touch.bears_b), (touch.b, touch.a, touch.bears_a)):
-            if above not in free or not (bearing > 0).any():
-                continue
-            if below in free:
-                among.append((below, above, mask))
-            else:
-                found[above] |= mask & free[above]
+            if above in free and (bearing > 0).any():
+                rows.append((below, above, mask))
+    found = _piled(observation, rows, {below for below, _, _ in rows if below not in free})
+    least = min(LINGERING, count * dt)
+    return {blob: mask_of(debounce(mask, dt, gap=FLICKER, least=least), count) for blob, mask in found.items()}
+
+
+def _piled(
+    observation: Observation, bearing: list[tuple[int, int, BoolArray]], surfaces: set[int]
+) -> dict[int, BoolArray]:
+    """Return whether each blob lies on one of some surfaces, or on others that do, uncontained, shape (T,) each.
+
+    Args:
+        observation: The log.
+        bearing: What bears which blob, and when, shape (T,).
+        surfaces: Units that are no blobs. What runs along the inner wall of a vessel is not on it, but leaving it.
+    """
+    free, leaving = observation.of(uncontained_masks), observation.of(blobs_in_hollows)
+    found = {blob: np.zeros(observation.tick_count, dtype=np.bool_) for blob in free}
+    among: list[tuple[int, int, BoolArray]] = []
+    for below, above, mask in bearing:
+        within = leaving.get(above, {})
+        if below in surfaces:
+            found[above] |= mask & free[above] & ~within.get(below, np.False_)
+        elif below in free:
+            lying = mask & free[above]
+            for inside in within.values():
+                lying &= ~inside
+            among.append((below, above, lying))
     changed = True
     while changed:
         changed = False
         for below, above, mask in among:
-            more = found[above] | (found[below] & mask & free[above])
-            if (more & ~found[above]).any():
-                found[above], changed = more, True
+            more = found[below] & mask & ~found[above]
+            if more.any():
+                found[above], changed = found[above] | more, True
     return found
+
+
+def _mass(observation: Observation, stuff: int, shares: Mapping[int, float]) -> float:
+    """Return the mass of a stuff [kg]."""
+    things = observation.log.things
+    return things[stuff].mass or sum(things[blob].mass for blob in shares)
 
 
 def _share(observation: Observation, shares: Mapping[int, float], masks: BlobMasks) -> FloatArray:

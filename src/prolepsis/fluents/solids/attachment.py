@@ -70,6 +70,8 @@ def attached(observation: Observation) -> Iterator[Fact]:
                 args = names[holder], names[grip.held]
                 yield observation.fact("fluent", "attached", args, (start, end), evidence)
     for (holder, held), stretches in observation.of(joint_runs).items():
+        if is_stuff(observation, holder) or is_stuff(observation, held):
+            continue
         for stretch in stretches:
             yield observation.fact("fluent", "attached", (names[holder], names[held]), stretch, {"by": "joint"})
 

@@ -69,10 +69,14 @@ def _stuffs(observation: Observation) -> Iterator[Fact]:
             if item.content in blobs.get(stuff, {}):
                 share = shares.setdefault(item.container, np.zeros(observation.tick_count))
                 share += blobs[stuff][item.content] * mask_of(item.stretches, observation.tick_count)
+        mass = things[stuff].mass or sum(things[blob].mass for blob in blobs.get(stuff, {}))
         for container, share in sorted(shares.items()):
-            enough = debounce(share >= NOTICEABLE_FRACTION, observation.dt, gap=CONTAINED_GAP, least=CONTAINED_LEAST)
-            for start, end in enough:
-                evidence = {"fraction": float(share[start:end].max())}
+            # The sum of all shares may fall short of a fraction by rounding, and exceed one.
+            share = np.minimum(share, 1.0)
+            enough = share >= NOTICEABLE_FRACTION - 1e-9
+            for start, end in debounce(enough, observation.dt, gap=CONTAINED_GAP, least=CONTAINED_LEAST):
+                greatest = float(share[start:end].max())
+                evidence = {"fraction": greatest, "mass": greatest * mass}
                 args = observation.unit_names[container], things[stuff].name
                 yield observation.fact("fluent", "contains", args, (start, end), evidence)
 
@@ -94,7 +98,7 @@ def contents(observation: Observation) -> tuple[Content, ...]:
     candidates = [shape for shape in shapes if _may_be_content(observation, shape)]
     by_container: dict[int, list[RigidShape]] = {}
     for shape in shapes:
-        if shape.is_hollow:
+        if shape.is_hollow and not is_stuff(observation, int(observation.unit[shape.body])):
             unit = int(observation.unit[shape.body])
             by_container.setdefault(unit, []).append(shape)
     found: list[Content] = []

@@ -8,12 +8,12 @@ import numpy as np
 
 from prolepsis.fluents.intervals import debounce, mask_of, one_sided_means, ticks_of
 from prolepsis.fluents.kinematics import BALANCE_WINDOW, balanced
-from prolepsis.fluents.observation import Observation, is_held_from_outside
+from prolepsis.fluents.observation import Observation, is_held_from_outside, named
 from prolepsis.fluents.registry import fluent
 from prolepsis.fluents.solids.contact import FLICKER, is_stuff
 from prolepsis.fluents.solids.resting import fixed_supports
 from prolepsis.fluents.solids.touch import touches
-from prolepsis.geometry.shape import FloatArray, IntArray
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.timeline import Fact
 
 NOTICEABLE_SHARE = 0.1
@@ -30,7 +30,8 @@ Pair = tuple[int, int]
 def supports(observation: Observation) -> Iterator[Fact]:
     """o1 bears at least a tenth of o2's weight through contacts that lie under o2, and o2's weight is balanced."""
     for (below, above), stretches in observation.of(support_runs).items():
-        if is_stuff(observation, below) or is_stuff(observation, above):
+        # Of a stuff it is told what all its blobs bear together.
+        if observation.has_role(below, "Blob") or is_stuff(observation, above):
             continue
         names = observation.unit_names[below], observation.unit_names[above]
         bearing = observation.of(bearing_forces)[below, above]
@@ -48,35 +49,44 @@ def supports(observation: Observation) -> Iterator[Fact]:
 
 
 def support_runs(observation: Observation) -> dict[Pair, IntArray]:
-    """Return when each unit bears each other one, parts of stuffs included: (below, above) to runs."""
+    """Return when each unit, blobs included, and each stuff as one bears which unit: (below, above) to runs."""
     dt, count = observation.dt, observation.tick_count
     at_rest = observation.of(balanced)
     window = ticks_of(BALANCE_WINDOW, dt)
     found: dict[Pair, IntArray] = {}
-    for touch in observation.of(touches):
-        for below, above, bearing in ((touch.a, touch.b, touch.bears_b), (touch.b, touch.a, touch.bears_a)):
-            if not (bearing > 0).any() or not _has_weight(observation, above):
-                continue
-            weight = observation.mass(above) * observation.gravity
-            past, future = one_sided_means(touch.series(bearing, count), window)
-            touching = mask_of(debounce(touch.mask(count, dt), dt, gap=FLICKER), count)
-            bears = touching & (np.maximum(past, future) > NOTICEABLE_SHARE * weight) & at_rest[above]
-            stretches = debounce(bears, dt, gap=SUPPORT_GAP, least=min(SUPPORT_LEAST, count * dt))
-            if len(stretches):
-                found[below, above] = stretches
+    for (below, above), bearing, touching in _bearing(observation):
+        weight = observation.mass(above) * observation.gravity
+        past, future = one_sided_means(bearing, window)
+        bears = touching & (np.maximum(past, future) > NOTICEABLE_SHARE * weight) & at_rest[above]
+        stretches = debounce(bears, dt, gap=SUPPORT_GAP, least=min(SUPPORT_LEAST, count * dt))
+        if len(stretches):
+            found[below, above] = stretches
     return found
 
 
 def bearing_forces(observation: Observation) -> dict[Pair, FloatArray]:
     """Return the upward force of each unit on each one it supports [N], at each tick: (below, above) to (T,)."""
     known = observation.of(support_runs)
-    count = observation.tick_count
-    found: dict[Pair, FloatArray] = {}
+    return {pair: bearing for pair, bearing, _ in _bearing(observation) if pair in known}
+
+
+def _bearing(observation: Observation) -> Iterator[tuple[Pair, FloatArray, BoolArray]]:
+    """Yield what presses on what from below, with which force [N], and when they touch, shape (T,) each."""
+    dt, count, naming = observation.dt, observation.tick_count, observation.of(named)
+    together: dict[Pair, tuple[FloatArray, BoolArray]] = {}
     for touch in observation.of(touches):
-        for pair, bearing in (((touch.a, touch.b), touch.bears_b), ((touch.b, touch.a), touch.bears_a)):
-            if pair in known:
-                found[pair] = touch.series(bearing, count)
-    return found
+        for below, above, bearing in ((touch.a, touch.b, touch.bears_b), (touch.b, touch.a, touch.bears_a)):
+            if not (bearing > 0).any() or not _has_weight(observation, above):
+                continue
+            series = touch.series(bearing, count)
+            touching = mask_of(debounce(touch.mask(count, dt), dt, gap=FLICKER), count)
+            yield (below, above), series, touching
+            stuff = int(naming[below])
+            if stuff != below and not is_stuff(observation, above):
+                force, when = together.get((stuff, above), (np.zeros(count), np.zeros(count, dtype=np.bool_)))
+                together[stuff, above] = force + series, when | touching
+    for pair, (force, when) in together.items():
+        yield pair, force, when
 
 
 def bearing_in_all(observation: Observation) -> dict[int, FloatArray]:
