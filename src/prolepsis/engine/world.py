@@ -184,7 +184,7 @@ def seen_from(holder: Thing, thing: Thing) -> tuple[Triple, Quaternion]:
 def _masses(thing: Thing) -> list[float]:
     """Return the mass of each solid of a thing [kg]: of one material, so by volume."""
     geoms = thing.shape.geoms
-    if len(geoms) < 2 or thing.fixed or thing.whole is not None:
+    if len(geoms) < 2 or thing.fixed or (thing.whole is not None and "Blob" not in thing.roles):
         return [thing.mass / max(len(geoms), 1)] * len(geoms)
     volumes = [matter_of(geom) for geom in geoms]
     return [thing.mass * volume / sum(volumes) for volume in volumes]
@@ -237,7 +237,8 @@ def _rule_contact(made: Any, thing: Thing, grippiest: float, *, rolls: bool) -> 
 def _refuse_overlaps(scene: Scene, model: Any, data: Any) -> None:
     """Refuse things that are inside each other at the start."""
     mujoco.mj_forward(model, data)
-    whole = {thing.name: thing.whole for thing in scene.things}
+    # A body of a stuff is apart from the others.
+    whole = {thing.name: None if "Blob" in thing.roles else thing.whole for thing in scene.things}
     fixed = {thing.name for thing in scene.things if thing.fixed}
 
     def top(name: str) -> str:

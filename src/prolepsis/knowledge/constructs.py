@@ -100,7 +100,7 @@ _NODE_TYPES = frozenset({OWL.Class, OWL.Restriction, OWL.ObjectProperty, RDFS.Da
 _PROVENANCE = frozenset({PRO.source, PRO.certainty})
 _OWN_NODES: Mapping[Node, Words] = {
     PRO.default: frozenset({PRO.of, PRO.value, PRO.deviation}) | _PROVENANCE,
-    PRO.defaultPart: frozenset({PRO.of, PRO.unless}) | _PROVENANCE,
+    PRO.defaultPart: frozenset({PRO.of, PRO.unless, PRO.countedBy}) | _PROVENANCE,
     PRO.curve: frozenset({PRO.of, PRO.over, PRO.point}) | _PROVENANCE,
     PRO.point: frozenset({PRO.at, PRO.value}),
     PRO.limit: frozenset({PRO.of, PRO.above, PRO.atLeast, PRO.atMost}) | _PROVENANCE,
@@ -136,7 +136,7 @@ _NAMED: Mapping[Node, tuple[str, ...]] = {
     **dict.fromkeys((OWL.differentFrom, OWL.distinctMembers, OWL.oneOf, OWL.hasValue), (INDIVIDUAL,)),
     **dict.fromkeys((OWL.sourceIndividual, OWL.targetIndividual), (INDIVIDUAL,)),
     PRO.of: (CLASS, RELATION, VALUES),
-    PRO.over: (VALUES,),
+    **dict.fromkeys((PRO.over, PRO.countedBy), (VALUES,)),
     **dict.fromkeys((OWL.someValuesFrom, OWL.allValuesFrom, OWL.intersectionOf, OWL.unionOf), (CLASS, "data range")),
     RDFS.range: (CLASS, "data range"),
     **dict.fromkeys((OWL.onDatatype, OWL.onDataRange, OWL.datatypeComplementOf), ("data range",)),

@@ -143,7 +143,7 @@ def _class(document: Document, iri: URIRef, properties: Mapping[str, Property]) 
         defaults=tuple(sorted(_defaults(document, iri, properties), key=lambda d: d.property)),
         curves=tuple(sorted(_curves(document, iri, properties), key=lambda c: c.property)),
         limits=tuple(sorted(_limits(document, iri, properties), key=lambda p: p.name)),
-        parts=tuple(sorted(_parts(document, iri), key=lambda p: p.kind)),
+        parts=tuple(sorted(_parts(document, iri, properties), key=lambda p: p.kind)),
         needs_whole=tuple(sorted(local_name(w) for w in graph.objects(iri, PRO.needsWhole) if isinstance(w, URIRef))),
         called=_word(document, iri),
         alignments=tuple(sorted({str(p) for p in parents + others if is_aligned(p)})),
@@ -294,7 +294,7 @@ def _deviation(entry: Property, node: Node, where: str) -> float:
     return number * unit_of(entry.unit).factor
 
 
-def _parts(document: Document, iri: URIRef) -> Iterator[DefaultPart]:
+def _parts(document: Document, iri: URIRef, properties: Mapping[str, Property]) -> Iterator[DefaultPart]:
     for node in document.graph.objects(iri, PRO.defaultPart):
         of, unless = _one(document, node, PRO.of), _one(document, node, PRO.unless)
         if not isinstance(of, URIRef):
@@ -302,4 +302,11 @@ def _parts(document: Document, iri: URIRef) -> Iterator[DefaultPart]:
         source, certainty = _provenance(document, iri, node, f"the default part {local_name(of)}")
         kind = local_name(of)
         unless_name = local_name(unless) if isinstance(unless, URIRef) else kind
-        yield DefaultPart(kind=kind, unless=unless_name, source=source, certainty=certainty)
+        counted = _one(document, node, PRO.countedBy)
+        counted_by = local_name(counted) if isinstance(counted, URIRef) else ""
+        if counted is not None and (counted_by not in properties or not properties[counted_by].whole):
+            raise KnowledgeError(
+                f"{document.where(iri)}: the default part {kind} of {local_name(iri)} is :countedBy "
+                f"{counted_by or 'nothing'}, which is no property that is a whole number"
+            )
+        yield DefaultPart(kind=kind, unless=unless_name, counted_by=counted_by, source=source, certainty=certainty)

@@ -39,7 +39,10 @@ def _class_lines(base: KnowledgeBase, entry: ClassEntry) -> list[str]:
     below = [c for c in base.vocabulary.classes if entry.name in base.types.superclasses(c)]
     lines += [f"  more special: {', '.join(below)}"] if below else []
     lines += [f"  must be part of: {', '.join(entry.needs_whole)}"] if entry.needs_whole else []
-    lines += [f"  part by default: {part.kind} ({part.source})" for part in entry.parts]
+    lines += [
+        f"  part by default: {part.kind}{f', {part.counted_by} of them' if part.counted_by else ''} ({part.source})"
+        for part in entry.parts
+    ]
     seen: set[str] = set()
     for class_name in (entry.name, *above):
         for default in base.vocabulary.classes[class_name].defaults:

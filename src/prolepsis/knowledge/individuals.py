@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 
 from rdflib import OWL, RDF, RDFS, BNode, URIRef
@@ -11,7 +11,7 @@ from rdflib import OWL, RDF, RDFS, BNode, URIRef
 from prolepsis.knowledge.situation import INVERSES, Situation, Statement
 from prolepsis.knowledge.sources import NAMESPACE
 from prolepsis.knowledge.turtle import Document, local_name
-from prolepsis.knowledge.vocabulary import Vocabulary
+from prolepsis.knowledge.vocabulary import DefaultPart, Vocabulary
 from prolepsis.knowledge.written import read_value
 from prolepsis.terms.errors import KnowledgeError, UnknownNameError
 
@@ -178,8 +178,7 @@ def _with_default_parts(situation: Situation, vocabulary: Vocabulary) -> Situati
         ):
             missing = [part for part in vocabulary.classes[name].parts if part.unless not in stated]
             stated |= {c for part in missing for c in vocabulary.told_classes((part.kind,))}
-            for part in missing:
-                part_name = part_name_of(whole, above, part.kind, vocabulary)
+            for part, part_name in _named(situation, whole, above, missing, vocabulary):
                 if part_name in classes:
                     raise KnowledgeError(
                         f"{locations[part_name]}: {part_name} is part of nothing, and {whole} would have a part of "
@@ -201,6 +200,24 @@ def _with_default_parts(situation: Situation, vocabulary: Vocabulary) -> Situati
         locations=locations,
         wholes=wholes,
     )
+
+
+def _named(
+    situation: Situation, whole: str, above: Collection[str], parts: list[DefaultPart], vocabulary: Vocabulary
+) -> Iterator[tuple[DefaultPart, str]]:
+    """Yield default parts of a whole with their names; those that are counted are numbered, as ``beads1/bead3``."""
+    for part in parts:
+        name = part_name_of(whole, above, part.kind, vocabulary)
+        if not part.counted_by:
+            yield part, name
+            continue
+        said = [s.value for s in situation.said.get((whole, part.counted_by), ())]
+        # The most specific class comes first.
+        classes = sorted(above, key=lambda each: -len(vocabulary.told_classes((each,))))
+        defaults = [default for each in classes for default in vocabulary.classes[each].defaults]
+        said += [default.value for default in defaults if default.property == part.counted_by]
+        count = next((value for value in said if isinstance(value, float)), 0.0)
+        yield from ((part, f"{name}{k}") for k in range(1, int(count) + 1))
 
 
 def part_name_of(whole: str, above: Collection[str], kind: str, vocabulary: Vocabulary) -> str:

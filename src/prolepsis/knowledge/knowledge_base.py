@@ -185,7 +185,8 @@ class KnowledgeBase:
             entry = self.vocabulary.properties.get(property_name)
             if entry is None:
                 raise UnknownNameError.of("property", property_name, self.vocabulary.properties, where=key)
-            if property_name in ("hasPart", "comprises", *INVERSES):
+            counts = {part.counted_by for each in self.vocabulary.classes.values() for part in each.parts}
+            if property_name in ("hasPart", "comprises", *INVERSES, *counts):
                 raise KnowledgeError(f"{key}: {property_name} cannot be overridden; write it in the situation")
             read = read_value(entry, str(value).lower() if isinstance(value, bool) else value, where=key)
             if entry.kind == "relation":

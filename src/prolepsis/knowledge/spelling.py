@@ -81,6 +81,6 @@ def _role(predicate: Node) -> str:
         return "class"
     return (
         "property"
-        if predicate in (OWL.onProperty, RDFS.subPropertyOf, OWL.inverseOf, PRO.of, PRO.over)
+        if predicate in (OWL.onProperty, RDFS.subPropertyOf, OWL.inverseOf, PRO.of, PRO.over, PRO.countedBy)
         else "individual"
     )

@@ -121,6 +121,8 @@ class DefaultPart:
     """Class of the part."""
     unless: str
     """Not made when a stated part is of this class."""
+    counted_by: str
+    """Property of the whole that tells how many of them there are; empty if there is one."""
     source: str
     """Where it comes from."""
     certainty: str

@@ -61,7 +61,9 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
     _refuse_useless(kb, kinds)
     roles = partial(_roles, kb, ROLES.union(*(kind.roles for kind in kinds)))
     thing_of = partial(_thing, kb, roles, begins)
-    individuals = Individuals(kb=kb, roles=roles, bodiless=lambda name: thing_of(name, None))
+    individuals = Individuals(
+        kb=kb, roles=roles, bodiless=lambda name: thing_of(name, None), solid=lambda name: thing_of(name, ())
+    )
     owners = {name: _owner(kb, name, kinds) for name in wholes}
     below = _hosts(kb, wholes)
     made: dict[str, Made] = {}

@@ -33,6 +33,8 @@ class Individuals:
     roles: Roles
     bodiless: Callable[[str], Thing]
     """Returns an individual as a thing at its stated place that has no shape yet."""
+    solid: Callable[[str], Thing]
+    """Returns an individual as a thing at its stated place with its shape."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -140,6 +140,8 @@ evidence_unit(volume, m3).
 
 class('Absorbent').
 class('Ball').
+class('Bead').
+class('Beads').
 class('Block').
 class('Bowl').
 class('Breakable').
@@ -169,6 +171,7 @@ class('ForceLevel').
 class('Fragile').
 class('Furniture').
 class('GlassBowl').
+class('Granular').
 class('Gripper').
 class('Hand').
 class('HardBoiledEgg').
@@ -210,6 +213,8 @@ class('YieldingBowl').
 
 parent('Absorbent', 'Solid').
 parent('Ball', 'Solid').
+parent('Bead', 'Ball').
+parent('Beads', 'Granular').
 parent('Block', 'Solid').
 parent('Bowl', 'Vessel').
 parent('Breakable', 'PhysicalObject').
@@ -243,6 +248,7 @@ parent('Floor', 'Furniture').
 parent('Fragile', 'PhysicalObject').
 parent('Furniture', 'Solid').
 parent('GlassBowl', 'Bowl').
+parent('Granular', 'Stuff').
 parent('Gripper', 'Solid').
 parent('Hand', 'Gripper').
 parent('HardBoiledEgg', 'Egg').
@@ -333,6 +339,7 @@ property(force, 'N').
 property(fractureStrain, '1').
 property(friction, '1').
 property(frictionWhenWet, '1').
+property(grainCount, '1').
 property(hasPart, '').
 property(height, m).
 property(holeAngle, rad).

@@ -1,0 +1,1 @@
+"""Stuffs that consist of many solid bodies: beads, peas, gravel."""
