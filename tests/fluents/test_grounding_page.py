@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
-from tests.fluents.worlds import FLOOR, STEP, box, roll, times, world
+from tests.fluents.worlds import FLOOR, STEP, ball, box, cup_geoms, free, roll, times, world
 
+import prolepsis
 from prolepsis.fluents import recognize
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import GROUNDINGS, fluent
@@ -20,7 +22,7 @@ PAGE = Path(__file__).parents[2] / "docs" / "grounding.md"
 
 
 def test_the_example_of_a_new_fluent_runs() -> None:
-    (source,) = re.findall(r"```python\n(.*?)```", PAGE.read_text(), re.DOTALL)
+    _, source = re.findall(r"```python\n(.*?)```", PAGE.read_text(), re.DOTALL)
     groundings = list(GROUNDINGS)
     try:
         exec(compile(source, str(PAGE), "exec"), {"__name__": "page"})
@@ -32,6 +34,17 @@ def test_the_example_of_a_new_fluent_runs() -> None:
     finally:
         GROUNDINGS[:] = groundings
         FLUENTS.pop("upsideDown", None)
+
+
+def test_the_example_of_a_stuff_runs() -> None:
+    source, _ = re.findall(r"```python\n(.*?)```", PAGE.read_text(), re.DOTALL)
+    beads = "".join(ball(f"bead{k}", f"{0.02 * k - 0.01} 0 .0101", 0.006, 0.001) for k in range(2))
+    model, states = roll(world(FLOOR + free("cup", "0 0 .0001", cup_geoms(0.03, 0.06)) + beads), 0.3)
+    *statements, asked = source.strip().splitlines()
+    known: dict[str, Any] = {"prolepsis": prolepsis, "model": model, "states": states}
+    exec(compile("\n".join(statements), str(PAGE), "exec"), known)
+    (answer,) = eval(asked, known)
+    assert (answer["V"], answer["F"]) == ("cup", pytest.approx(1.0))
 
 
 @pytest.mark.parametrize(

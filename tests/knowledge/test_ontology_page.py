@@ -40,6 +40,17 @@ def test_the_liquids_of_the_page_are_filled_in_where_it_says(tmp_path: Path) -> 
     assert len(made.thing("cup2").shape.holes) == 3
 
 
+def test_the_granular_stuffs_of_the_page_are_placed_where_it_says(tmp_path: Path) -> None:
+    blocks = re.findall(r"```turtle\n(.*?)```", PAGE.read_text(), re.S)
+    path = tmp_path / "page.ttl"
+    path.write_text(blocks[2])
+    made = compose_scene(KnowledgeBase.load(path), particles=1000)
+    assert [len(made.parts(stuff)) for stuff in ("beads1", "beads2")] == [20, 2]
+    assert made.thing("beads1/bead20").whole == "beads1"
+    assert made.thing("bead1").position[:2] == pytest.approx((0.2, 0.0))
+    assert made.thing("ball1").position[:2] == pytest.approx((0.3, 0.0))
+
+
 def test_the_scenario_of_the_page_is_read_as_it_says(tmp_path: Path) -> None:
     match = re.search(r"```toml\n(.*?)```", PAGE.read_text(), re.S)
     assert match is not None
