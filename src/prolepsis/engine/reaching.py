@@ -105,27 +105,32 @@ def _through(
     """Return how thick the third is where the first two touch through it, and whether the first is in it, by tick."""
     a, b, _ = three
     solids = [_solids(things, matter, thing) for thing in three]
+    bounds = np.array([solid.bounds() for _, solid in solids[2]]).reshape(-1, 2, 3)
+    low, high, owner = bounds[:, 0] - DEEPEST, bounds[:, 1] + DEEPEST, [thing for thing, _ in solids[2]]
     steps = np.linspace(-DEEPEST, DEEPEST, STEPS)
     found: dict[int, tuple[float, bool]] = {}
     for tick in ticks.tolist():
         rows: IntArray = np.arange(*np.searchsorted(contacts.tick, (tick, tick + 1)), dtype=np.int64)
         for row in rows[(contacts.a[rows] == a) & (contacts.b[rows] == b)].tolist():
             line = contacts.point[row] + steps[:, None] * contacts.normal[row]
-            for thing, solid in solids[2]:
+            here = rotate_back(poses[tick, owner, 3:], contacts.point[row] - poses[tick, owner, :3])
+            # Most of a vessel's many solids are elsewhere.
+            for k in np.flatnonzero(((here >= low) & (here <= high)).all(axis=1)).tolist():
+                thing, solid = solids[2][k]
                 depth = -solid.distance(_seen_from(poses[tick, thing], line))
                 inside = np.flatnonzero(depth > 0.0)
                 if not len(inside) or inside[0] == 0 or inside[-1] == STEPS - 1:
                     continue
-                low, high = float(steps[inside[0]]), float(steps[inside[-1]])
+                first, last = float(steps[inside[0]]), float(steps[inside[-1]])
                 middle = line[inside].mean(axis=0)[None]
                 across = -float(solid.distance(_seen_from(poses[tick, thing], middle))[0])
-                if across < ACROSS * (high - low) / 2 or low > BESIDE or high < -BESIDE:
+                if across < ACROSS * (last - first) / 2 or first > BESIDE or last < -BESIDE:
                     continue
                 # The normal points from the first to the second: the third lies on the side of the one that is in it.
-                mine = low + high <= 0.0
+                mine = first + last <= 0.0
                 own = [s.distance(_seen_from(poses[tick, each], middle)) for each, s in solids[0 if mine else 1]]
                 if min(float(gap[0]) for gap in own) < 0.0:
-                    found[tick] = high - low + float(steps[1] - steps[0]), mine
+                    found[tick] = last - first + float(steps[1] - steps[0]), mine
     return found
 
 
