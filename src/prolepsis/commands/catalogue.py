@@ -228,7 +228,11 @@ def _class(entry: ClassEntry, knowledge: KnowledgeBase) -> str:
     for title, names in (("parents", entry.parents), ("all superclasses", above), ("subclasses", below)):
         lines += [f"  {title}: {', '.join(names)}"] if names else []
     lines += [f"  corresponds to: {', '.join(entry.alignments)}"] if entry.alignments else []
-    lines += [f"  default part: {part.kind} ({part.certainty}: {part.source})" for part in entry.parts]
+    lines += [
+        f"  default part: {part.kind}{f', {part.counted_by} of them' if part.counted_by else ''} "
+        f"({part.certainty}: {part.source})"
+        for part in entry.parts
+    ]
     rows = [("default", "value", "sd", "unit", "from", "how known")]
     for name in sorted(vocabulary.properties):
         found = knowledge.default_of((entry.name, *above), name)

@@ -18,7 +18,7 @@ BLOB = frozenset({"Blob"})
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Place:
+class Placement:
     """Where a body of a stuff is at the start."""
 
     relation: str
@@ -55,31 +55,31 @@ class Grains(Kind):
                 )
             for part in parts:
                 _refuse_unlike(kb, part, f"{where}: its part {part} ({kb.kind(part)})", kinds)
-                place_of(kb, part)
+                placement_of(kb, part)
 
     def fill(self, draft: Draft) -> tuple[Mapping[str, tuple[Thing, ...]], tuple[Pool, ...]]:
         """Return each stuff with its bodies, at their places among the other solids."""
         kb, found = draft.individuals.kb, dict[str, tuple[Thing, ...]]()
         names = self.flowing(kb)
         grains = {part: draft.individuals.solid(part) for name in names for part in kb.parts(name)}
-        placed = {part: _lowered(draft, grain, place_of(kb, part)) for part, grain in grains.items()}
-        at_once: dict[tuple[str, Place], list[Thing]] = {}
+        placed = {part: _lowered(draft, grain, placement_of(kb, part)) for part, grain in grains.items()}
+        at_once: dict[tuple[str, Placement], list[Thing]] = {}
         for part, grain in grains.items():
             if placed[part] is None:
-                at_once.setdefault((kb.whole(part) or "", place_of(kb, part)), []).append(grain)
+                at_once.setdefault((kb.whole(part) or "", placement_of(kb, part)), []).append(grain)
         if at_once:
             # Imported here: scenes without grains are composed without it.
             from prolepsis.matter.grains.packing import layer, packed
 
             bodies = [thing for each in draft.things.values() for thing in each if thing.is_body]
-            for (name, place), several in at_once.items():
+            for (name, placement), several in at_once.items():
                 here = [*bodies, *(grain for grain in placed.values() if grain is not None)]
-                under = [thing for thing in draft.things[place.host] if thing.is_body]
-                if place.relation == "contains":
+                under = [thing for thing in draft.things[placement.host] if thing.is_body]
+                if placement.relation == "contains":
                     made = packed(several, name, under, here)
                 else:
                     stuff = _stuff(draft.individuals, name)
-                    x, y = place_on(stuff, [draft.things[place.host]])
+                    x, y = place_on(stuff, [draft.things[placement.host]])
                     made = layer(several, name, (x, y), under, here, draft.resting_height)
                 placed |= {grain.name: grain for grain in made}
         for name in names:
@@ -100,7 +100,7 @@ def _stuff(individuals: Individuals, name: str) -> Thing:
     return Thing(name=name, kind=kb.kind(name), mount=WITHIN, roles=individuals.roles(name), quantities=quantities)
 
 
-def place_of(kb: KnowledgeBase, part: str) -> Place:
+def placement_of(kb: KnowledgeBase, part: str) -> Placement:
     """Return where a body of a stuff is told to be: itself, or with all others.
 
     Raises:
@@ -109,12 +109,12 @@ def place_of(kb: KnowledgeBase, part: str) -> Place:
     stuff = kb.whole(part) or ""
     for name in (part, stuff):
         own = name == part
-        told = [Place(relation="contains", host=host, own=own) for host in kb.subjects("contains", name)]
-        told += [Place(relation="on", host=host, own=own) for host in kb.objects_of("on", name)]
-        told += [Place(relation="at", own=own)] if kb.stated(name, "z") is not None else []
+        told = [Placement(relation="contains", host=host, own=own) for host in kb.subjects("contains", name)]
+        told += [Placement(relation="on", host=host, own=own) for host in kb.objects_of("on", name)]
+        told += [Placement(relation="at", own=own)] if kb.stated(name, "z") is not None else []
         where = f"{kb.location(name)}: {name} ({kb.kind(name)})"
         if len(told) > 1:
-            hosts = ", ".join(place.host or "at its z" for place in told)
+            hosts = ", ".join(placement.host or "at its z" for placement in told)
             raise KnowledgeError(f"{where} is in several places: {hosts}; allowed: one")
         if told and (own or told[0].relation != "at"):
             return told[0]
@@ -137,12 +137,12 @@ def _held_by(kb: KnowledgeBase, part: str) -> list[tuple[str, str]]:
     return [(relation, held) for relation in ("contains", "absorbs") for held in kb.objects_of(relation, part)]
 
 
-def _lowered(draft: Draft, grain: Thing, place: Place) -> Thing | None:
+def _lowered(draft: Draft, grain: Thing, placement: Placement) -> Thing | None:
     """Return a body at its own place, or None if it is to be placed with others."""
-    if place.relation == "at":
+    if placement.relation == "at":
         return grain
-    if place.relation == "on" and place.own:
-        under = draft.things[place.host]
+    if placement.relation == "on" and placement.own:
+        under = draft.things[placement.host]
         x, y = place_on(grain, [under])
         height = draft.resting_height(
             replace(grain, position=(x, y, 0.0)), [thing for thing in under if thing.is_body and thing.shape.geoms]

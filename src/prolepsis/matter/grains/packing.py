@@ -60,7 +60,8 @@ def packed(grains: Sequence[Thing], stuff: str, vessel: Sequence[Thing], solids:
             f"{stuff}: {len(grains)} bodies of {2e3 * radius:.3g} mm are to be in {container.name}, where "
             f"{len(points)} have room below the brim"
         )
-    return _at(grains, points[np.argsort(points[:, 2], kind="stable")])
+    beside = np.hypot(*(points - (low + high) / 2)[:, :2].T)
+    return _at(grains, points[np.lexsort((beside, points[:, 2]))])
 
 
 def layer(
