@@ -1,4 +1,4 @@
-"""Two hands carry a tray by its ends: each holds it, and both pick it up; when one goes up, what stands on it slides off."""
+"""Two hands carry a tray by its ends: each holds it, both pick it up; if one goes up, what stands on it slides off."""
 
 from __future__ import annotations
 

@@ -38,13 +38,12 @@ def with_asserted(timeline: Timeline) -> tuple[Fact, ...]:
 
 def _otherwise(timeline: Timeline, shown: tuple[str, tuple[str, str]]) -> float | None:
     """Return from when on the log shows that what should be ``shown`` is no longer so; None if it never does."""
-    type_, (holder, held) = shown
+    type_, (_, held) = shown
     return next(
         (
             fact.start
             for fact in timeline.facts
-            if (fact.type == type_ and fact.args[1:] == (held,) and fact.args[0] != holder)
-            or (fact.type == "falling" and fact.args == (held,))
+            if (fact.type == type_ and fact.args[1:] == (held,)) or (fact.type == "falling" and fact.args == (held,))
         ),
         None,
     )

@@ -25,7 +25,7 @@ APART = 0.05
 SETTLED_SPEED = 0.02
 """Closing or separating speed at which the impact is over [m/s]."""
 IMPULSE_SHARE = 0.5
-"""Least impulse as a share of (lighter mass times closing speed) [1]; less is a touch in passing."""
+"""Least impulse as a share of (lighter mass times ``MEETING_SPEED``) [1]; less is a touch in passing."""
 
 
 @event("colliding", "o1", "o2")
