@@ -134,6 +134,7 @@ def simulate(
             each.begin_tick(state)
             if state.version != binding.version:
                 renewed()
+        state.soften_friction()
         step = max_step
         for each in stepping:
             step = min(step, each.longest_step(state))

@@ -11,9 +11,18 @@ import numpy as np
 from prolepsis.engine.joining import Joining
 from prolepsis.engine.pushing import Pushes
 from prolepsis.engine.reporting import check_attribute, check_happening
-from prolepsis.engine.world import DEBRIS_IMPEDANCE_RATIO, MOST_FRICTION, World, add_geom, priority_of
+from prolepsis.engine.world import (
+    DEBRIS_IMPEDANCE_RATIO,
+    IMPEDANCE_RATIO,
+    MOST_FRICTION,
+    SQUEEZED,
+    SQUEEZED_TIME,
+    World,
+    add_geom,
+    priority_of,
+)
 from prolepsis.geometry.rotations import compose_pose, inverse, relative_pose, rotated
-from prolepsis.geometry.shape import FloatArray, IntArray, Quaternion, Triple, quaternion, triple
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray, Quaternion, Triple, quaternion, triple
 from prolepsis.log.happenings import Happening
 from prolepsis.log.things import Thing
 from prolepsis.scene.particles import ParticleState
@@ -63,6 +72,8 @@ class State:
     """What kinds hold together."""
     pushes: Pushes = field(default_factory=Pushes)
     """What kinds push now."""
+    _pieces: BoolArray = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
+    _squeezed_until: float = 0.0
     _body_names: list[str] = field(default_factory=list[str])
     _body_of_geom: list[int] = field(default_factory=list[int])
     _bodies_version: int = -1
@@ -110,6 +121,8 @@ class State:
         index = {thing.name: i for i, thing in enumerate(self.scene.things)}
         names = [self.model.body(body).name for body in range(self.model.nbody)]
         self.body_thing = np.array([index.get(name, -1) for name in names])
+        pieces = {index[thing.name] for thing in self.scene.things if "Piece" in thing.roles}
+        self._pieces = np.isin(self.body_thing, [*pieces])
         self.pushes.bind(self._body_names, names)
         self._body_names = names
 
@@ -316,9 +329,10 @@ class State:
         if old_thing not in {i for group in groups for i in group}:
             whole = np.flatnonzero(self.carrier == old_thing)
             self.carrier[whole] = -1
-        self.spec.option.impratio = DEBRIS_IMPEDANCE_RATIO
         self.splits += 1
         self._rebuild()
+        self._squeezed_until = float(self.data.time) + SQUEEZED_TIME
+        self.soften_friction()
         for group in groups:
             joint = self.data.joint(things[group[0]].name)
             pose = poses[group[0]]
@@ -329,6 +343,17 @@ class State:
             if i in self.frictions:
                 self.set_friction(i, self.frictions[i])
         mujoco.mj_forward(self.model, self.data)
+
+    def soften_friction(self) -> None:
+        """Let what static friction holds creep a little while pieces are squeezed: else the solver diverges."""
+        if not self.splits:
+            return
+        data, contact = self.data, self.data.contact
+        hard = np.flatnonzero(contact.efc_address >= 0)
+        hard = hard[data.efc_force[contact.efc_address[hard]] > SQUEEZED]
+        if self._pieces[self.model.geom_bodyid[contact.geom[hard]]].any():
+            self._squeezed_until = float(data.time) + SQUEEZED_TIME
+        self.model.opt.impratio = DEBRIS_IMPEDANCE_RATIO if data.time < self._squeezed_until else IMPEDANCE_RATIO
 
     def join(self, source: object, joints: Sequence[PointJoint]) -> list[int]:
         """Replace the joints of a source, and return their numbers."""

@@ -26,7 +26,11 @@ SMALL_SOLREF = (0.004, 1.0)
 SMALL_SOLIMP = (0.9, 0.95, 0.001, 0.5, 2.0)
 IMPEDANCE_RATIO, DEBRIS_IMPEDANCE_RATIO = 100.0, 10.0
 """Friction over normal impedance [1]. Static friction is regularized: at 1 what is gripped creeps by 2 mm/s, at 100 by
-less than 0.02. Once one has fallen to pieces the solver's time matters more, and pieces in a grip may creep by 0.2."""
+less than 0.02. While pieces are squeezed the solver does not get along with that, and what is gripped creeps by 0.2."""
+SQUEEZED = 1.0
+"""Normal force of a contact with a piece above which it is squeezed [N]: a shell and its content weigh half of that."""
+SQUEEZED_TIME = 0.1
+"""So long after the last such force that still counts [s]: forces among pieces flicker."""
 ROLLING_FRICTION = 2.0e-4
 """Resistance of a smooth thing to rolling, as a length [m]; a tenth of a millimetre is usual for hard round things."""
 ROUND = ("sphere", "ellipsoid", "capsule", "cylinder")
