@@ -10,7 +10,7 @@ import pytest
 from prolepsis.engine.composing import compose_scene
 from prolepsis.knowledge import KnowledgeBase
 from prolepsis.knowledge.masses import TOLERANCE
-from prolepsis.knowledge.reasoner import LIMIT_VARIABLE, TIME_LIMIT
+from prolepsis.knowledge.time_limit import LIMIT_VARIABLE, TIME_LIMIT
 from prolepsis.scenario.scenario import FEWEST_PARTICLES, MOST_PARTICLES, Scenario
 from prolepsis.terms.terms import format_value
 

@@ -14,7 +14,7 @@ from prolepsis.matter.films.wetting import LOOK_TICKS, Wetting
 
 PUDDLE = ":floor a :Floor . :table1 a :Table . :liq1 a :Water ; :on :table1 ; :volume 0.0000005 . "
 OVER_IT = ":sponge1 a :Sponge ; :length 0.06 ; :width 0.06 ; :height 0.02 ; :z 0.713 . "
-AWAY = OVER_IT.replace("0.713", "0.9")
+AWAY = OVER_IT.replace("0.713", "2.0")
 
 
 def looks(state: State, wetting: Wetting) -> bool:

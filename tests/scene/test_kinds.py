@@ -123,7 +123,7 @@ def test_a_kind_may_add_columns_to_particles_and_happenings(tmp_path: Path) -> N
         ages = each.particles.columns["age"]
         assert ages.shape == each.particles.holder.shape
         assert ages[:, -1] == pytest.approx(each.particles.tick * TICK, rel=1e-5)
-        (birthday,) = each.happenings.values()
+        birthday = each.happenings["birthday"]
         assert (birthday.tick.tolist(), birthday.things["liquid"].tolist()) == ([49], [log.index("liq1")])
         assert birthday.numbers["age"].tolist() == [0.05]
 
@@ -356,7 +356,10 @@ def yawn(type: str = "yawn", number: str = "width", **things: int) -> Callable[[
         (sets("block1", "speed"), "no channel that is set named 'speed'"),
         (sets("block2", "wet"), "no object named 'block2'; did you mean 'block1'"),
         (sets("block1", "weariness"), "block1: weariness is of a Breakable, which"),
-        (yawn("yown", thing=0), "no type of happenings named 'yown'; did you mean 'yawn'.; known: detachment, yawn"),
+        (
+            yawn("yown", thing=0),
+            "no type of happenings named 'yown'; did you mean 'yawn'.; known: detachment, film",
+        ),
         (yawn(think=0), "yawn: reported with think; declared: thing"),
         (yawn(number="breadth", thing=0), "yawn: reported with breadth; declared: width"),
         (yawn(thing=7), "yawn: thing is 7, which is no index of the 2 things"),

@@ -134,7 +134,8 @@ def simulate(
             each.begin_tick(state)
             if state.version != binding.version:
                 renewed()
-        state.soften_friction()
+        if state.splits:
+            state.softening.renew(state.model, state.data)
         step = max_step
         for each in stepping:
             step = min(step, each.longest_step(state))

@@ -11,18 +11,10 @@ import numpy as np
 from prolepsis.engine.joining import Joining
 from prolepsis.engine.pushing import Pushes
 from prolepsis.engine.reporting import check_attribute, check_happening
-from prolepsis.engine.world import (
-    DEBRIS_IMPEDANCE_RATIO,
-    IMPEDANCE_RATIO,
-    MOST_FRICTION,
-    SQUEEZED,
-    SQUEEZED_TIME,
-    World,
-    add_geom,
-    priority_of,
-)
+from prolepsis.engine.softening import Softening
+from prolepsis.engine.world import MOST_FRICTION, World, add_geom, priority_of
 from prolepsis.geometry.rotations import compose_pose, inverse, relative_pose, rotated
-from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray, Quaternion, Triple, quaternion, triple
+from prolepsis.geometry.shape import FloatArray, IntArray, Quaternion, Triple, quaternion, triple
 from prolepsis.log.happenings import Happening
 from prolepsis.log.things import Thing
 from prolepsis.scene.particles import ParticleState
@@ -72,8 +64,8 @@ class State:
     """What kinds hold together."""
     pushes: Pushes = field(default_factory=Pushes)
     """What kinds push now."""
-    _pieces: BoolArray = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
-    _squeezed_until: float = 0.0
+    softening: Softening = field(default_factory=Softening)
+    """How stiff friction is now."""
     _body_names: list[str] = field(default_factory=list[str])
     _body_of_geom: list[int] = field(default_factory=list[int])
     _bodies_version: int = -1
@@ -121,8 +113,7 @@ class State:
         index = {thing.name: i for i, thing in enumerate(self.scene.things)}
         names = [self.model.body(body).name for body in range(self.model.nbody)]
         self.body_thing = np.array([index.get(name, -1) for name in names])
-        pieces = {index[thing.name] for thing in self.scene.things if "Piece" in thing.roles}
-        self._pieces = np.isin(self.body_thing, [*pieces])
+        self.softening.bind(self.body_thing, self.scene.things)
         self.pushes.bind(self._body_names, names)
         self._body_names = names
 
@@ -182,13 +173,11 @@ class State:
 
     def position(self, name: str) -> Triple:
         """Return where a thing is in the world [m]; one that is no body any more is where it was at the start."""
-        x, y, z = (float(value) for value in self.pose(name)[:3])
-        return (x, y, z)
+        return triple(self.pose(name)[:3])
 
     def orientation(self, name: str) -> Quaternion:
         """Return how a thing is turned in the world, a unit quaternion (w, x, y, z)."""
-        w, x, y, z = (float(value) for value in self.pose(name)[3:])
-        return (w, x, y, z)
+        return quaternion(self.pose(name)[3:])
 
     def renew_poses(self, centres: bool = False) -> None:
         """Bring poses, and centres of mass if wanted, up to the present: after a step they are those before it."""
@@ -198,9 +187,8 @@ class State:
 
     def velocity(self, name: str) -> FloatArray:
         """Return the velocity of a thing's carrier [m/s], shape (3,); zeros if it has none."""
-        scene = self.scene
-        carrier = int(self.carrier[scene.index(name)])
-        return self._twist(scene.things[carrier].name)[3:] if carrier >= 0 else np.zeros(3)
+        carrier = int(self.carrier[self.scene.index(name)])
+        return self._twist(self.scene.things[carrier].name)[3:] if carrier >= 0 else np.zeros(3)
 
     def velocity_at(self, body: str, point: FloatArray) -> FloatArray:
         """Return the velocity of points of a MuJoCo body in the world [m/s], shape (..., 3)."""
@@ -331,8 +319,7 @@ class State:
             self.carrier[whole] = -1
         self.splits += 1
         self._rebuild()
-        self._squeezed_until = float(self.data.time) + SQUEEZED_TIME
-        self.soften_friction()
+        self.softening.begin(self.model, self.data)
         for group in groups:
             joint = self.data.joint(things[group[0]].name)
             pose = poses[group[0]]
@@ -343,17 +330,6 @@ class State:
             if i in self.frictions:
                 self.set_friction(i, self.frictions[i])
         mujoco.mj_forward(self.model, self.data)
-
-    def soften_friction(self) -> None:
-        """Let what static friction holds creep a little while pieces are squeezed: else the solver diverges."""
-        if not self.splits:
-            return
-        data, contact = self.data, self.data.contact
-        hard = np.flatnonzero(contact.efc_address >= 0)
-        hard = hard[data.efc_force[contact.efc_address[hard]] > SQUEEZED]
-        if self._pieces[self.model.geom_bodyid[contact.geom[hard]]].any():
-            self._squeezed_until = float(data.time) + SQUEEZED_TIME
-        self.model.opt.impratio = DEBRIS_IMPEDANCE_RATIO if data.time < self._squeezed_until else IMPEDANCE_RATIO
 
     def join(self, source: object, joints: Sequence[PointJoint]) -> list[int]:
         """Replace the joints of a source, and return their numbers."""

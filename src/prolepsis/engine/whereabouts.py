@@ -1,4 +1,4 @@
-"""Where a thing is and how fast it goes, also where it is no rigid body: a hand, a shell in pieces, a liquid."""
+"""Where a thing is and how fast it goes, also where it is no rigid body: a hand, what is in pieces, a liquid."""
 
 from __future__ import annotations
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from prolepsis.engine.softening import STIFF
 from prolepsis.geometry.rotations import inverse, product, rotated
 from prolepsis.geometry.shape import IDENTITY, Quaternion, Triple, triple
 from prolepsis.geometry.solids import matter_of
@@ -24,13 +25,6 @@ SMOOTH_SOLIMP = (0.0, 0.95, 0.001, 0.5, 2.0)
 SMALL_SOLREF = (0.004, 1.0)
 """Contact of pieces and blobs, which weigh grams and would be passed through at the softer value."""
 SMALL_SOLIMP = (0.9, 0.95, 0.001, 0.5, 2.0)
-IMPEDANCE_RATIO, DEBRIS_IMPEDANCE_RATIO = 100.0, 10.0
-"""Friction over normal impedance [1]. Static friction is regularized: at 1 what is gripped creeps by 2 mm/s, at 100 by
-less than 0.02. While pieces are squeezed the solver does not get along with that, and what is gripped creeps by 0.2."""
-SQUEEZED = 1.0
-"""Normal force of a contact with a piece above which it is squeezed [N]: a shell and its content weigh half of that."""
-SQUEEZED_TIME = 0.1
-"""So long after the last such force that still counts [s]: forces among pieces flicker."""
 ROLLING_FRICTION = 2.0e-4
 """Resistance of a smooth thing to rolling, as a length [m]; a tenth of a millimetre is usual for hard round things."""
 ROUND = ("sphere", "ellipsoid", "capsule", "cylinder")
@@ -85,7 +79,7 @@ def compile_world(scene: Scene) -> World:
     option.timestep = MAX_STEP
     option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
-    option.impratio = IMPEDANCE_RATIO
+    option.impratio = STIFF
     option.gravity = list(scene.gravity)
     # MuJoCo would silently start again after a divergence; the run must end as invalid instead.
     option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 from prolepsis.knowledge.inferred import Types
 from prolepsis.knowledge.kept import keep_reading, read_reading
-from prolepsis.knowledge.reasoner import time_limit
 from prolepsis.knowledge.situation import Situation
 from prolepsis.knowledge.sources import Source
+from prolepsis.knowledge.time_limit import time_limit
 from prolepsis.knowledge.vocabulary import Vocabulary
 from prolepsis.system.sources import digest_of, digest_of_texts, sources_in
 

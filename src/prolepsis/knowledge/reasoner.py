@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-import os
 import re
 import threading
 import time
@@ -13,15 +11,12 @@ from typing import TYPE_CHECKING
 
 from prolepsis.knowledge.axioms import Axiom
 from prolepsis.knowledge.counting import counted_on_the_right
+from prolepsis.knowledge.time_limit import LIMIT_VARIABLE, time_limit
 from prolepsis.terms.errors import KnowledgeError, UndecidedError
 
 if TYPE_CHECKING:
     from pyhermit import Reasoner
 
-LIMIT_VARIABLE = "PROLEPSIS_REASONER_SECONDS"
-"""Environment variable: seconds of the processor that one consistency check may take."""
-TIME_LIMIT = 10.0
-"""The same when the variable is not set [s]. A check of the built-in ontology takes a few tenths."""
 CHECKS = 6
 """All checks of one knowledge base together may take so many times as long."""
 LOOKING = 0.02
@@ -57,22 +52,6 @@ class Budget:
         """For one check [s]."""
         self.left = CHECKS * self.each
         """For all that are to come [s]."""
-
-
-def time_limit() -> float:
-    """Return how long one consistency check may take [s].
-
-    Raises:
-        KnowledgeError: If the environment variable is no positive number.
-    """
-    text = os.environ.get(LIMIT_VARIABLE, "").strip()
-    try:
-        seconds = float(text) if text else TIME_LIMIT
-    except ValueError:
-        seconds = math.nan
-    if not (math.isfinite(seconds) and seconds > 0.0):
-        raise KnowledgeError(f"{LIMIT_VARIABLE} must be a number of seconds greater than 0, not {text!r}")
-    return seconds
 
 
 @contextmanager

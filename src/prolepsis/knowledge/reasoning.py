@@ -20,8 +20,9 @@ from prolepsis.knowledge.chaining import MOST_STEPS, Chaining, StepsError, chain
 from prolepsis.knowledge.conflict import smallest_conflict
 from prolepsis.knowledge.inferred import Types
 from prolepsis.knowledge.kept import keep_answer, read_answer
-from prolepsis.knowledge.reasoner import LIMIT_VARIABLE, Budget, is_consistent
+from prolepsis.knowledge.reasoner import Budget, is_consistent
 from prolepsis.knowledge.situation import Situation
+from prolepsis.knowledge.time_limit import LIMIT_VARIABLE
 from prolepsis.knowledge.turtle import Document
 from prolepsis.knowledge.vocabulary import Vocabulary
 from prolepsis.terms.errors import InconsistentError, UndecidedError
