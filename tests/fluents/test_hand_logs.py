@@ -253,3 +253,12 @@ def test_what_is_gripped_and_dragged_over_a_table_is_attached() -> None:
     ((start, end),) = times(recognize(draft.log()), "attached(rightGripper,egg1)")
     assert start == pytest.approx(0.3, abs=0.03)
     assert end == pytest.approx(0.7, abs=0.03)
+
+
+@pytest.mark.parametrize("gap", [10, 50])
+def test_how_fast_it_slips_is_told_where_it_is_known(gap: int) -> None:
+    draft = grasp_draft()
+    squeeze(draft, 200, 400)
+    squeeze(draft, 400 + gap, 600)
+    (held,) = recognize(draft.log()).select(type="attached")
+    assert held.evidence["slip_speed"] == 0.0

@@ -59,12 +59,14 @@ def attached(observation: Observation) -> Iterator[Fact]:
     for grip in observation.of(grips):
         for start, end in grip.stretches:
             slip = np.linalg.norm(grip.position[end - 1] - grip.position[start])
+            # In the middle of a gap of a hold it is not known.
+            speed = grip.slip_speed[start:end]
             evidence: dict[str, float | str] = {
                 "by": "grip",
                 "pad_force": float(grip.force[start:end].mean()),
                 "peak_force": float(grip.force[start:end].max()),
                 "slip": float(slip),
-                "slip_speed": float(grip.slip_speed[start:end].max()),
+                "slip_speed": float(speed[np.isfinite(speed)].max()),
             }
             for holder in grip.holders:
                 args = names[holder], names[grip.held]
