@@ -16,7 +16,7 @@ from prolepsis.log.log import Log
 from prolepsis.log.outcomes import GOES_ON, OUTCOMES, Outcome
 from prolepsis.programs.actions.striking import push_down
 from prolepsis.programs.nesting import as_event
-from prolepsis.robots.commands import Command, End, Sense
+from prolepsis.robots.commands import Command, End, Sense, is_instant
 from prolepsis.robots.hand import HAND
 from prolepsis.terms.errors import Note, PlanError
 
@@ -122,26 +122,64 @@ def test_a_plan_that_goes_on_and_on_says_so_and_is_given_up(monkeypatch: pytest.
 
 
 class Yielding(FakeHand):
-    """A hand under which a surface yields at 19 N."""
+    """A hand under which a surface, 3 mm below, yields at 19 N."""
 
     def sense(self, time: float) -> Sense:
-        force = max(HAND.position_gain * min(self.offset[2], 0.0), -19.0)
+        force = max(HAND.position_gain * min(self.offset[2] + 0.003, 0.0), -19.0)
         full = super().sense(time)
         hands = {n: replace(h, load=lambda: (0.0, 0.0, force)) for n, h in full.hands.items()}
         return replace(full, hands=hands)
 
 
-@pytest.mark.parametrize(("force", "outcome", "reason"), [(15.0, "done", ""), (45.0, "not_reached", "19 of 45 N")])
-def test_a_push_is_done_if_its_force_was_there(force: float, outcome: str, reason: str) -> None:
-    hand = Yielding((0.0, 0.0, 0.722))
+class Creeping(FakeHand):
+    """A hand in which what it holds creeps while it is pressed on a surface, 3 mm below where it is at first."""
+
+    force_felt, began, pressing = 0.0, -1.0, 0
+
+    def obey(self, commands: tuple[Command, ...]) -> None:
+        before = self.offset[2]
+        super().obey(commands)
+        below = min(before, -0.003) - min(self.offset[2], -0.003)
+        # As an egg in the hand of a PR2: 5000 N/m, and 0.45 mm/s for each newton.
+        self.force_felt = max(self.force_felt + 5.0e3 * (below - 4.5e-4 * self.force_felt * 1e-3), 0.0)
+        self.pressing += self.force_felt > 0.0
+
+    def sense(self, time: float) -> Sense:
+        self.began = time if self.began < 0.0 and self.offset[2] < 0.0 else self.began
+        # It feels its own inertia, too, when it sets out.
+        force = self.force_felt + 2.0 * (self.began >= 0.0 and time < self.began + 0.1)
+        full = super().sense(time)
+        hands = {n: replace(h, load=lambda: (0.0, 0.0, -force), stiffness=5.0e3) for n, h in full.hands.items()}
+        return replace(full, hands=hands)
+
+
+def pushed(hand: FakeHand, force: float) -> End:
+    """Return the end of a push of half a second by a hand."""
     thing = scene(BLOCK + ":height 0.04 ." + ABOVE).thing("hand1")
     behaviour = as_event("push", {"hand": thing}, push_down(thing, hand.sense(0.0), force, 0.5), hand.sense(0.0))
-    said: list[Command] = list(next(behaviour))
+    made, time = next(behaviour), 0.0
+    said: list[Command] = []
     with pytest.raises(StopIteration):
         while True:
-            hand.obey(tuple(said))
-            said += behaviour.send(hand.sense(0.0))
-    last = [each for each in said if isinstance(each, End)][-1]
+            said += made
+            hand.obey(made)
+            time += 0.0 if is_instant(made) else 0.001
+            made = behaviour.send(hand.sense(time))
+    return [each for each in said if isinstance(each, End)][-1]
+
+
+@pytest.mark.parametrize("force", [10.0, 20.0, 40.0])
+def test_a_push_keeps_up_its_force_though_what_is_held_creeps(force: float) -> None:
+    hand = Creeping((0.0, 0.0, 0.722))
+    assert pushed(hand, force).outcome == "done"
+    assert hand.force_felt == pytest.approx(force, rel=0.05)
+    # The force has grown in a second on the surface, not on the way there, and was held for half a second.
+    assert hand.pressing > 1450
+
+
+@pytest.mark.parametrize(("force", "outcome", "reason"), [(15.0, "done", ""), (45.0, "not_reached", "19 of 45 N")])
+def test_a_push_is_done_if_its_force_was_there(force: float, outcome: str, reason: str) -> None:
+    last = pushed(Yielding((0.0, 0.0, 0.722)), force)
     assert (last.outcome, last.evidence.get("reason", "")) == (outcome, reason)
 
 

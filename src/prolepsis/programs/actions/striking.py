@@ -34,8 +34,12 @@ APPROACH_HEIGHT, APPROACH_SPEED = 0.004, 0.02
 """A push begins this far above what it presses on, and goes down so fast [m, m/s]."""
 BRING_SPEED, BRING_ACCELERATION = 0.3, 1.0
 """With which something is brought over something else [m/s, m/s^2]."""
-RATE = 8.0
+EASING = 0.1
+"""The push gets to its speed in this time; as long again, what the servos feel is the hand's own inertia [s]."""
+RATE = 16.0
 """Rate at which an error of the force fades [1/s]."""
+GIVEN_WAY = 0.2
+"""What resists by this share of the whole force less than it should has given way [1]."""
 SPEED_WITHIN, PUSH_WITHIN = 0.1, 0.05
 """A blow has its speed, a push its force within this share of it [1]."""
 RAMP_TIME, HOLD_TIME = 1.0, 0.5
@@ -153,18 +157,23 @@ def push_down(hand: Thing, sense: Sense, force: float, duration: float) -> Behav
     The force is told by the joints' efforts, against what they were before.
     """
     start = sense.hands[hand.name]
-    resting = start.load()[2]
-    depth, elapsed, touched, greatest = 0.0, 0.0, False, 0.0
+    begin, resting = sense.time, start.load()[2]
+    depth, elapsed, touched, greatest, creeping = 0.0, 0.0, False, 0.0, 0.0
     while elapsed < RAMP_TIME + duration and depth < TOO_DEEP:
-        felt = resting - sense.hands[hand.name].load()[2]
-        greatest = max(greatest, felt)
-        touched = touched or felt > TOUCH
+        felt, since = resting - sense.hands[hand.name].load()[2], sense.time - begin
+        touched = touched or (felt > TOUCH and since > 2 * EASING)
         if touched:
+            greatest = max(greatest, felt)
             elapsed += TICK
             wanted = force * min(elapsed / RAMP_TIME, 1.0)
-            sinking = (wanted - felt) / start.stiffness * RATE
+            growing = force / RAMP_TIME / start.stiffness if elapsed < RAMP_TIME else 0.0
+            error = (wanted - felt) / start.stiffness * RATE
+            # What is held creeps in the hand in proportion to the force: the hand must go on sinking to keep that up,
+            # but not when what it presses on has given way.
+            creeping = max(creeping + error * RATE / 4 * TICK, 0.0) if felt > wanted - GIVEN_WAY * force else 0.0
+            sinking = growing + error + creeping
         else:
-            sinking = APPROACH_SPEED
+            sinking = APPROACH_SPEED * min((since + TICK) / EASING, 1.0)
         depth += sinking * TICK
         position: Triple = (start.offset[0], start.offset[1], start.offset[2] - depth)
         target = HandTarget(hand=hand.name, offset=position, velocity=(0.0, 0.0, -sinking), rotation=start.rotation)
