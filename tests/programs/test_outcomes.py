@@ -66,6 +66,19 @@ def test_a_grasp_that_closes_on_another_thing_has_missed() -> None:
     assert ended(log)[-1] == ("grasp", "missed", "between the pads of hand1 is block2, not block1")
 
 
+def test_a_free_hand_takes_a_bar_by_one_end_and_gives_it_to_another() -> None:
+    bar = (
+        ":floor a :Floor . :table1 a :Table . :block1 a :Block ; :on :table1 ; :length 0.04 ; :width 0.04 ; "
+        ":height 0.06 . :bar1 a :Block ; :on :block1 ; :length 0.04 ; :width 0.2 ; :height 0.04 . "
+    )
+    hands = ":handA a :Gripper ; :y -0.35 ; :z 0.9 ; :yaw 90 . :handB a :Gripper ; :y 0.35 ; :z 0.9 ; :yaw -90 ."
+    taken = "grasp(handA, bar1, 15, 0, 0.06), lift(handA, 0.1), grasp(handB, bar1, 15, 0, 0.06), release(handA)"
+    log = run(
+        bar + hands, f"sequence([{taken}, carry(handA, [0, -0.1, 0]), carry(handB, [0, 0.1, 0]), hold(handB, 0.2)])"
+    )
+    assert {outcome for _, outcome, _ in ended(log)} == {"done"}
+
+
 def test_fingers_that_cannot_open_end_their_action() -> None:
     wall = " :wall{0} a :Obstacle ; :on :table1 ; :y {1} ; :length 0.1 ; :width 0.04 ; :height 0.15 ."
     walls = wall.format(1, 0.05) + wall.format(2, -0.05)

@@ -66,13 +66,13 @@ def grasp(
     scene: Scene, sense: Sense, *, hand: Thing, object: Thing, force: float, height: float, short: float
 ) -> Behaviour:
     """Reach for the object's middle, a height above or short of it, unless the hand is there; close with a force."""
-    pose = grasp_as_turned(hand, object, sense, height)
+    pose = grasp_as_turned(hand, object, sense, height, short)
     here = sense.hands[hand.name]
     displacement = np.subtract(pose.offset, here.offset)
     if np.abs(displacement).max() > CLEARANCE or here.opening < pose.width:
         aside = {name: value for name, value in (("height", height), ("short", short)) if value}
         sense = yield from nested("reach", scene, sense, hand=hand, object=object, **aside)
-        pose = grasp_as_turned(hand, object, sense, height)
+        pose = grasp_as_turned(hand, object, sense, height, short)
     sense = yield from close_from(hand, pose.width + CLEARANCE, force, sense)
     sense = yield from felt(hand, force, sense)
     held = sense.hands[hand.name].held()

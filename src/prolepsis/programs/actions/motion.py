@@ -149,11 +149,11 @@ def reach(
     """Open the gripper wider than the object, if it is not, and move it round that, a height above or short of it."""
     if sense.hands[hand.name].arm is not None:
         return (yield from _reach_by_arm(hand, object, sense, speed, height, short, reference_of(scene, hand)))
-    pose = grasp_as_turned(hand, object, sense, height)
+    pose = grasp_as_turned(hand, object, sense, height, short)
     width = min(pose.width + MARGIN, ROBOT.max_opening)
     if sense.hands[hand.name].opening < width:
         sense = yield from open_to(hand, width, sense)
-        pose = grasp_as_turned(hand, object, sense, height)
+        pose = grasp_as_turned(hand, object, sense, height, short)
     displacement = np.subtract(pose.offset, sense.hands[hand.name].offset)
     ahead = float(displacement @ np.asarray(pose.forward))
     first = displacement - min(ahead, STANDOFF) * np.asarray(pose.forward)

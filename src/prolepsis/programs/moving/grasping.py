@@ -89,18 +89,25 @@ def displacement_to(hand: Thing, object: Thing, sense: Sense, height: float = 0.
     return position - np.asarray(sense.hands[hand.name].position)
 
 
-def grasp_as_turned(hand: Thing, object: Thing, sense: Sense, height: float) -> GraspPose:
-    """Return the grasp pose for which the hand need not turn; what is too long for its fingers it holds by the end."""
+def grasp_as_turned(hand: Thing, object: Thing, sense: Sense, height: float, short: float = 0.0) -> GraspPose:
+    """Return the grasp pose for which the hand need not turn; what is too long for its fingers it holds by the end.
+
+    So it does, ``short`` [m] of the middle, if that is said: the end at which its palm is.
+    """
     here, seen = sense.hands[hand.name], as_seen(object, sense)
     width = grasping_width(here.orientation, seen)
     displacement = displacement_to(hand, object, sense, height)
-    forward = rotated(here.orientation, (1.0, 0.0, 0.0))
+    forward, back = rotated(here.orientation, (1.0, 0.0, 0.0)), 0.0
+    if short:
+        along = longest_axis(seen)
+        aside = math.copysign(short, -float(along @ (displacement + STANDOFF * forward))) * along
+        displacement, back = displacement + aside, -float(aside @ forward)
     if here.arm is not None:
         ahead, across = here.arm.held_at(width)
         displacement = displacement - ahead * forward - across * rotated(here.orientation, (0.0, 1.0, 0.0))
     else:
         palm = -ROBOT.palm_offset - ROBOT.palm_half_size[0]
-        displacement = displacement - max(extent_along(seen, forward) / 2 + PALM_ROOM - palm, 0.0) * forward
+        displacement = displacement - max(extent_along(seen, forward) / 2 + PALM_ROOM - palm - back, 0.0) * forward
     return GraspPose(
         offset=_sum(here.offset, displacement), rotation=here.rotation, width=width, forward=triple(forward)
     )
