@@ -66,6 +66,33 @@ def test_a_grasp_that_closes_on_another_thing_has_missed() -> None:
     assert ended(log)[-1] == ("grasp", "missed", "between the pads of hand1 is block2, not block1")
 
 
+PR2_BY_A_TABLE = (
+    ":floor a :Floor . :table1 a :Table . :block1 a :Block ; :on :table1 ; :x 0.2 . :pr2 a :PR2 ; :x -0.8 ; "
+    + (":hasPart :rightGripper , :leftGripper . :rightGripper a :Gripper . :leftGripper a :Gripper . ")
+)
+
+
+@pytest.mark.parametrize(
+    ("plan", "reason"),
+    [
+        ("drive(pr2, [-0.2, 0])", "base_x of pr2 is 0."),
+        ("raise_torso(pr2, 0.3)", "torso_lift_joint of pr2 is 0."),
+    ],
+)
+def test_a_trunk_that_is_held_up_has_not_reached_its_place(plan: str, reason: str) -> None:
+    lid = ":lid1 a :Obstacle ; :x -0.8 ; :z 1.65 ; :length 0.6 ; :width 0.6 ; :height 0.1 ."
+    log = run(PR2_BY_A_TABLE + lid, plan)
+    ((_, outcome, said),) = ended(log)
+    assert (outcome, said[: len(reason)]) == ("not_reached", reason)
+
+
+def test_what_has_gone_meanwhile_is_not_looked_at() -> None:
+    carried = "together([look_at(pr2, block1), carry(rightGripper, [0, -0.3, 0.1], 4)])"
+    near = PR2_BY_A_TABLE.replace(":x 0.2", ":x -0.2 ; :y -0.1 ; :length 0.04 ; :width 0.04 ; :height 0.07")
+    log = run(near, f"sequence([grasp(rightGripper, block1, 20), {carried}])")
+    assert {verb: outcome for verb, outcome, _ in ended(log)}["look_at"] == "not_reached"
+
+
 def test_a_free_hand_takes_a_bar_by_one_end_and_gives_it_to_another() -> None:
     bar = (
         ":floor a :Floor . :table1 a :Table . :block1 a :Block ; :on :table1 ; :length 0.04 ; :width 0.04 ; "

@@ -250,3 +250,16 @@ def test_what_an_arm_cannot_follow_is_an_outcome(tmp_path: Path) -> None:
     (action,) = replayed(tmp_path, ROBOT, columns, "rightGripper").actions
     assert action.outcome == "unreachable"
     assert re.search(r"rightGripper: \d+ mm away from the recording at \d\.\d+ s", str(action.evidence["reason"]))
+
+
+def test_a_free_hand_that_is_held_up_has_not_reached_the_end_of_the_recording(tmp_path: Path) -> None:
+    def deep(depth: float) -> dict[str, list[float]]:
+        time = [0.1 * k for k in range(11)]
+        return {"time": time, "dx": [0.0] * 11, "dy": [0.0] * 11, "dz": [-depth * each for each in time]}
+
+    above = ":floor a :Floor . :table1 a :Table . :hand1 a :Gripper ; :pitch 90.0 ; :z 0.9 ."
+    (replaying,) = replayed(tmp_path, above, deep(0.25)).actions
+    assert replaying.outcome == "not_reached"
+    assert " mm and 0.0" in str(replaying.evidence["reason"])
+    (replaying,) = replayed(tmp_path, above, deep(0.15)).actions
+    assert replaying.outcome == "done"

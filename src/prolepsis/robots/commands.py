@@ -257,6 +257,8 @@ class RobotSense:
 
     joints: Mapping[str, float]
     """Commanded coordinates by joint [rad or m]."""
+    measured: Callable[[], Mapping[str, float]]
+    """Coordinates by joint as they are [rad or m]; computed when asked."""
     speeds: Mapping[str, float]
     """Greatest speeds by joint [rad/s or m/s]."""
     accelerations: Mapping[str, float]

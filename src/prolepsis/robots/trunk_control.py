@@ -35,6 +35,7 @@ class Trunk:
         self._data = state.data
         names = [f"{self.name}/{joint}" for joint in self._joints]
         self._servos = np.array([int(model.actuator(name).id) for name in names], dtype=np.int64)
+        self._addresses = [int(model.joint(name).qposadr[0]) for name in names]
         dofs = [int(model.joint(name).dofadr[0]) for name in names]
         self._lags = [
             (joint.damping + float(model.dof_damping[dof])) / joint.stiffness
@@ -67,6 +68,7 @@ class Trunk:
         x, y, z = (float(value) for value in neck)
         return RobotSense(
             joints={name: position for name, (position, _) in self._targets.items()},
+            measured=self._measured,
             speeds=self._speeds,
             accelerations=self._accelerations,
             ranges=self._ranges,
@@ -75,6 +77,9 @@ class Trunk:
             neck=(x, y, z),
             yaw=float(np.arctan2(rotation[3], rotation[0])),
         )
+
+    def _measured(self) -> dict[str, float]:
+        return dict(zip(self._joints, map(float, self._data.qpos[self._addresses]), strict=True))
 
 
 def _range(model: Any, joint: str) -> tuple[float, float]:

@@ -15,6 +15,7 @@ from prolepsis.programs.action import HAND, ParameterSpec, action
 from prolepsis.programs.actions.gripping import FASTEST, SLOWEST, SPEED_PER_FORCE
 from prolepsis.programs.actions.motion import ARRIVED, OPENING_SPEED
 from prolepsis.programs.moving.profile import PEAK_SPEED, least_jerk, least_time
+from prolepsis.programs.moving.reached import arrived
 from prolepsis.programs.recording import Recording, read_recording
 from prolepsis.robots.commands import (
     ActionFailedError,
@@ -137,7 +138,8 @@ def replay(scene: Scene, sense: Sense, *, hand: Thing, file: Path) -> Behaviour:
         sense = yield (target, *grips.get(k, ()))
         behind = max(behind, _refuse_behind(hand, sense, (k - len(course) + len(ticks)) * TICK))
     end = HandTarget(hand=hand.name, offset=triple(course[-1, :3]), rotation=triple(course[-1, 3:]))
-    return (yield (end, *([Measured(evidence={"behind": behind})] if here.arm is not None else ())))
+    sense = yield (end, *([Measured(evidence={"behind": behind})] if here.arm is not None else ()))
+    return (yield from arrived(hand, sense))
 
 
 def _replay_joints(hand: Thing, sense: Sense, recording: Recording, ticks: FloatArray) -> Behaviour:
@@ -160,7 +162,7 @@ def _replay_joints(hand: Thing, sense: Sense, recording: Recording, ticks: Float
         )
         sense = yield (target, *grips.get(k, ()))
         _refuse_behind(hand, sense, (k - len(start)) * TICK)
-    return sense
+    return (yield from arrived(hand, sense))
 
 
 def _positions(recording: Recording) -> FloatArray:

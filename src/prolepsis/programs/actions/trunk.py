@@ -8,12 +8,17 @@ from collections.abc import Mapping
 import numpy as np
 
 from prolepsis.geometry.rotations import wrapped, yaw_of
+from prolepsis.geometry.shape import Triple
 from prolepsis.log.things import Thing
 from prolepsis.programs.action import OBJECT, ROBOT_NAME, ParameterSpec, action
 from prolepsis.programs.moving.profile import least_jerk, least_time
-from prolepsis.robots.commands import ActionFailedError, Behaviour, JointTarget, RobotSense, Sense
+from prolepsis.programs.moving.reached import PLACE_WITHIN, TURN_WITHIN
+from prolepsis.robots.commands import ActionFailedError, Behaviour, JointTarget, Measured, RobotSense, Sense
 from prolepsis.scene.scene import Scene
 from prolepsis.terms.errors import PlanError
+
+STRAIGHT, TURNING = (PLACE_WITHIN, "m"), (TURN_WITHIN, "rad")
+"""Joints that move straight and those that turn are where they should be within this."""
 
 
 def move_joints(robot: Thing, sense: Sense, goals: Mapping[str, float], speed: float | None = None) -> Behaviour:
@@ -32,6 +37,20 @@ def move_joints(robot: Thing, sense: Sense, goals: Mapping[str, float], speed: f
                 speeds=dict(zip(goals, map(float, rates), strict=True)),
             ),
         )
+    return sense
+
+
+def _stopped(
+    robot: Thing, sense: Sense, goals: Mapping[str, float], within: Mapping[str, tuple[float, str]]
+) -> Behaviour:
+    """Say so if joints are not where they should be by now; ``within`` says how near, and the unit, by joint."""
+    here = sense.robots[robot.name].measured()
+    for name, goal in goals.items():
+        away, (most, unit) = abs(here[name] - goal), within[name]
+        if away > most:
+            reason = f"{name} of {robot.name} is {away:.3g} {unit} from where it should be"
+            sense = yield (Measured(evidence={"away": away, "reason": reason}, outcome="not_reached"),)
+            break
     return sense
 
 
@@ -58,7 +77,9 @@ def drive(
     along = math.cos(first) * dx + math.sin(first) * dy
     aside = math.cos(first) * dy - math.sin(first) * dx
     x, y, about = sense.robots[robot.name].base
-    return (yield from move_joints(robot, sense, {x: along, y: aside, about: yaw - first}, speed))
+    goals = {x: along, y: aside, about: yaw - first}
+    sense = yield from move_joints(robot, sense, goals, speed)
+    return (yield from _stopped(robot, sense, goals, {x: STRAIGHT, y: STRAIGHT, about: TURNING}))
 
 
 def _can_look(scene: Scene, *, robot: Thing, **_: object) -> None:
@@ -71,11 +92,18 @@ def look_at(scene: Scene, sense: Sense, *, robot: Thing, object: Thing) -> Behav
     """Turn the head so that the camera looks at an object."""
     del scene
     here = sense.robots[robot.name]
-    x, y, z = (there - at for there, at in zip(sense.position(object.name), here.neck, strict=True))
-    pan = wrapped(math.atan2(y, x) - here.yaw)
-    goals = dict(zip(here.head, (pan, math.atan2(-z, math.hypot(x, y))), strict=True))
+    goals = _towards(here, sense.position(object.name))
     _refuse_beyond(robot, here, goals, object)
-    return (yield from move_joints(robot, sense, goals))
+    sense = yield from move_joints(robot, sense, goals)
+    # It may be somewhere else by now.
+    goals = _towards(sense.robots[robot.name], sense.position(object.name))
+    return (yield from _stopped(robot, sense, goals, dict.fromkeys(goals, TURNING)))
+
+
+def _towards(here: RobotSense, position: Triple) -> dict[str, float]:
+    """Return the joints of the head at which it looks at a position in the world [rad]."""
+    x, y, z = (there - at for there, at in zip(position, here.neck, strict=True))
+    return dict(zip(here.head, (wrapped(math.atan2(y, x) - here.yaw), math.atan2(-z, math.hypot(x, y))), strict=True))
 
 
 def _refuse_beyond(robot: Thing, here: RobotSense, goals: Mapping[str, float], object: Thing) -> None:
@@ -99,4 +127,5 @@ def raise_torso(scene: Scene, sense: Sense, *, robot: Thing, height: float) -> B
     if not low <= height <= high:
         reason = f"{torso} of {robot.name} would be at {height:g} m, allowed {low:g} to {high:g} m"
         raise ActionFailedError("unreachable", reason)
-    return (yield from move_joints(robot, sense, {torso: height}))
+    sense = yield from move_joints(robot, sense, {torso: height})
+    return (yield from _stopped(robot, sense, {torso: height}, {torso: STRAIGHT}))

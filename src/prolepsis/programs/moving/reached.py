@@ -14,6 +14,8 @@ TURN_WITHIN = 0.05
 def arrived(hand: Thing, sense: Sense) -> Behaviour:
     """Say so if a hand is not where it should be by now."""
     distance, angle = sense.hands[hand.name].away()
+    # What an arm cannot get to, it is not even told to.
+    distance = max(distance, sense.hands[hand.name].lag)
     if distance > PLACE_WITHIN or angle > TURN_WITHIN:
         reason = f"{hand.name} is {distance * 1000:.0f} mm and {angle:.2f} rad from where it should be"
         sense = yield (Measured(evidence={"away": distance, "reason": reason}, outcome="not_reached"),)
