@@ -66,6 +66,77 @@ def test_a_grasp_that_closes_on_another_thing_has_missed() -> None:
     assert ended(log)[-1] == ("grasp", "missed", "between the pads of hand1 is block2, not block1")
 
 
+CUPS = ":floor a :Floor . :table1 a :Table . :cup1 a :Cup ; :on :table1 . :cup2 a :Cup ; :on :table1 ; :y 0.2 . " + (
+    ":hand1 a :Gripper ; :x -0.2 ; :z 0.9 ."
+)
+
+
+@pytest.mark.parametrize(
+    ("things", "plan"),
+    [
+        (BLOCK + ":height 0.04 ." + ABOVE, "wipe(hand1, block1, table1, [0.1, 0, 0])"),
+        (BLOCK + ":height 0.04 ." + ABOVE, "squeeze(hand1, block1, 10)"),
+        (CUPS, "pour(hand1, cup1, cup2)"),
+    ],
+)
+def test_nothing_is_done_with_what_was_never_held(things: str, plan: str) -> None:
+    log = run(things, f"sequence([{plan}, wait(1)])")
+    ((_, outcome, reason),) = ended(log)
+    assert (outcome, reason.split(":")[0]) == (
+        "not_held",
+        f"hand1 does not hold {'cup1' if 'cup' in plan else 'block1'}",
+    )
+
+
+MOVES = (
+    "lift(hand1, 0.05)",
+    "carry(hand1, [0.1, 0, 0])",
+    "tilt(hand1, 0.3)",
+    "bring(hand1, table1)",
+    "hold(hand1, 0.1)",
+)
+
+
+def test_a_hand_that_grips_nothing_carries_nothing_but_goes_its_way() -> None:
+    log = run(BLOCK + ":height 0.04 ." + ABOVE, f"sequence([close(hand1, 20), {', '.join(MOVES)}])")
+    missed, *moved = ended(log)
+    assert missed[1] == "missed"
+    nothing = "between the pads of hand1 is nothing"
+    assert moved == [(move.partition("(")[0], "not_held", nothing) for move in MOVES]
+    # One that does not grip is only moved.
+    assert {each[1] for each in ended(run(BLOCK + ":height 0.04 ." + ABOVE, f"sequence([{', '.join(MOVES)}])"))} == {
+        "done"
+    }
+
+
+class Losing(FakeHand):
+    """A hand that loses what it holds after a while."""
+
+    def sense(self, time: float) -> Sense:
+        full = super().sense(time)
+        if time > 0.3:
+            full.hands = {n: replace(h, pad_force=0.0, held=lambda: ()) for n, h in full.hands.items()}
+        return full
+
+
+@pytest.mark.parametrize("move", [*MOVES, "wipe(hand1, egg1, table1, [0.1, 0, 0])", "squeeze(hand1, egg1, 5)"])
+def test_what_is_lost_meanwhile_is_dropped_and_not_held_after_that(move: str) -> None:
+    plan = f"sequence([grasp(hand1, egg1, 5), hold(hand1, 0.2), {move.replace('0.1)', '0.5)')}, lift(hand1, 0.1)])"
+    said = carried_out(plan, scene(EGG_IN_HAND), Losing((0.0, 0.0, 0.722)))
+    ends = [each.outcome for _, each in said if isinstance(each, End)]
+    assert ends == ["done", "done", "dropped", "not_held"]
+
+
+def test_a_wiping_over_nothing_has_not_its_force() -> None:
+    situation = BLOCK + ":height 0.04 ." + " :hand1 a :Gripper ; :pitch 90.0 ; :z 0.742 ; :opening 0.05 ."
+    log = run(
+        situation, "sequence([grasp(hand1, block1, 20), lift(hand1, 0.1), wipe(hand1, block1, table1, [0.1, 0, 0])])"
+    )
+    verb, outcome, reason = ended(log)[-1]
+    assert (verb, outcome) == ("wipe", "not_reached")
+    assert reason.endswith(" of 1 N")
+
+
 PR2_BY_A_TABLE = (
     ":floor a :Floor . :table1 a :Table . :block1 a :Block ; :on :table1 ; :x 0.2 . :pr2 a :PR2 ; :x -0.8 ; "
     + (":hasPart :rightGripper , :leftGripper . :rightGripper a :Gripper . :leftGripper a :Gripper . ")

@@ -122,7 +122,9 @@ def test_squeezing_ends_with_the_grip_that_was_before(egg_in_hand: Scene) -> Non
 
 
 def test_wiping_presses_strokes_there_and_back_and_lets_go_of_the_surface(egg_in_hand: Scene) -> None:
-    said = carried_out("wipe(hand1, egg1, table1, [0.1, 0.05, 0], 3, 2.0)", egg_in_hand)
+    said = carried_out(
+        "sequence([grasp(hand1, egg1, 5), wipe(hand1, egg1, table1, [0.1, 0.05, 0], 3, 2.0)])", egg_in_hand
+    )
     offsets = [c.offset for _, c in said if isinstance(c, HandTarget)]
     # The surface of this hand is a spring at height 0.
     lowest = -2.0 / HAND.position_gain

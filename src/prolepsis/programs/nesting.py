@@ -43,6 +43,7 @@ def as_event(
     peak = -1.0
     hands = [each for each in sense.hands if each in named.values()]
     held = {each: {*sense.hands[each].held()} for each in hands if sense.hands[each].grip > 0}
+    empty = [each for each in held if not held[each] and name in ACTIONS and ACTIONS[name].carries]
     lost = dict.fromkeys(hands, 0)
     sense = yield (Begin(term=term, arguments=named),)
     first = True
@@ -70,7 +71,12 @@ def as_event(
                 evidence["peak_pad_force"] = peak = hand.pad_force
             lost[each] = lost[each] + 1 if hand.grip > 0 and hand.pad_force == 0 else 0
     dropped = any(_is_dropped(sense.hands[each], held[each], lost[each]) for each in held)
-    return (yield (End(term=term, outcome="dropped" if dropped else outcome, evidence=evidence),))
+    if dropped:
+        outcome = "dropped"
+    elif outcome == "done" and any(_grips_nothing(sense.hands[each], lost[each]) for each in empty):
+        # The way is gone to its end all the same: the robot does not know it by itself.
+        outcome, evidence = "not_held", {"reason": f"between the pads of {empty[0]} is nothing", **evidence}
+    return (yield (End(term=term, outcome=outcome, evidence=evidence),))
 
 
 def _is_dropped(hand: HandSense, before: set[str], lost: int) -> bool:
@@ -79,6 +85,11 @@ def _is_dropped(hand: HandSense, before: set[str], lost: int) -> bool:
         return False
     # Pads that have lost what was between them press each other.
     return lost >= LOST_TICKS or (hand.pad_force > 0.0 and before.isdisjoint(hand.held()))
+
+
+def _grips_nothing(hand: HandSense, lost: int) -> bool:
+    """Return whether a hand that should hold something holds nothing."""
+    return hand.grip > 0 and (lost >= LOST_TICKS or (hand.pad_force > 0.0 and not hand.held()))
 
 
 def nested(name: str, scene: Scene, sense: Sense, **arguments: Any) -> Behaviour:

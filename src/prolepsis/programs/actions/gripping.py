@@ -34,15 +34,18 @@ def close_from(hand: Thing, width: float, force: float, sense: Sense) -> Behavio
     return sense
 
 
-def felt(hand: Thing, force: float, sense: Sense) -> Behaviour:
+def felt(hand: Thing, force: float, sense: Sense, object: Thing | None = None) -> Behaviour:
     """Say what lies between the pads once they have closed, and whether they have got to the force [N].
 
     Raises:
-        ActionFailedError: If they hold something, but have not come to rest.
+        ActionFailedError: If they hold something, but have not come to rest; or not what they should.
     """
     here = sense.hands[hand.name]
     held = here.held()
     sense = yield (Measured(evidence={"between": " and ".join(held) or "nothing"}),)
+    if object is not None and object.name not in held:
+        between = " and ".join(held) or "nothing"
+        raise ActionFailedError("missed", f"between the pads of {hand.name} is {between}, not {object.name}")
     if not held:
         return sense
     if here.motion != 0:
@@ -74,12 +77,7 @@ def grasp(
         sense = yield from nested("reach", scene, sense, hand=hand, object=object, **aside)
         pose = grasp_as_turned(hand, object, sense, height, short)
     sense = yield from close_from(hand, pose.width + CLEARANCE, force, sense)
-    sense = yield from felt(hand, force, sense)
-    held = sense.hands[hand.name].held()
-    if object.name not in held:
-        between = " and ".join(held) or "nothing"
-        raise ActionFailedError("missed", f"between the pads of {hand.name} is {between}, not {object.name}")
-    return sense
+    return (yield from felt(hand, force, sense, object))
 
 
 @action(HAND, HELD, FORCE, ParameterSpec(name="duration", kind="duration", default=1.0))

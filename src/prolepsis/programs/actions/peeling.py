@@ -16,6 +16,7 @@ from prolepsis.programs.actions.motion import open_to, stay, travel
 from prolepsis.programs.moving.following import go
 from prolepsis.programs.moving.grasping import CLEARANCE
 from prolepsis.programs.moving.holding import holding
+from prolepsis.programs.moving.reached import compared
 from prolepsis.programs.moving.two_hands import OTHER, HandPose, HeldOut, check_two_arms, hold_out
 from prolepsis.robots.commands import Behaviour, HandTarget, JointPath, Measured, Sense, no_joint_path
 from prolepsis.scene.extent import extent_along
@@ -129,7 +130,8 @@ def peel(
         sense = yield from _pull(other, sense, shelled, held, found, reference, force)
         if before - len(shelled.covered(sense)) > off:
             tried.clear()
-    return sense
+    off = before - len(shelled.covered(sense))
+    return (yield from compared(sense, "pieces_off", off, before, 0.0, "pieces"))
 
 
 def _pinch(

@@ -14,6 +14,7 @@ from prolepsis.programs.action import HAND, ParameterSpec, action
 from prolepsis.programs.actions.motion import stay, travel_over
 from prolepsis.programs.actions.turning import RATE
 from prolepsis.programs.moving.following import follow
+from prolepsis.programs.moving.holding import holding
 from prolepsis.programs.moving.lip import Below, heights, lip_of
 from prolepsis.programs.moving.outline import outline
 from prolepsis.programs.moving.profile import course
@@ -82,7 +83,7 @@ def pour(
     duration: float,
 ) -> Behaviour:
     """Tilt the held source over the target, its lip at a height over the target's top, offset past its middle."""
-    state = sense.hands[hand.name]
+    state = holding(hand, source, sense)
     reference = reference_of(scene, hand)
     ahead = turned(reference, (state.rotation[0], 0.0, 0.0))
     level = matrix(ahead)

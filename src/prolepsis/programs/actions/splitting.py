@@ -11,7 +11,7 @@ from prolepsis.geometry.rotations import angles_of, from_axes
 from prolepsis.geometry.shape import FloatArray, Quaternion, triple
 from prolepsis.log.things import Thing
 from prolepsis.programs.action import FORCE, HAND, HELD, ParameterSpec, action
-from prolepsis.programs.actions.gripping import close_from
+from prolepsis.programs.actions.gripping import close_from, felt
 from prolepsis.programs.actions.motion import MARGIN, open_to, stay, travel
 from prolepsis.programs.combining import Maker, all_together
 from prolepsis.programs.moving.following import follow, go
@@ -79,6 +79,7 @@ def _take(other: Thing, sense: Sense, object: Thing, held: HeldOut, reference: Q
                 sense = yield from go(other, sense, before, rotation, ())
                 sense = yield from travel(other, sense, triple(np.subtract(offset, before)), 1.0, 0.1)
                 sense = yield from close_from(other, width + CLEARANCE, force, sense)
+                sense = yield from felt(other, force, sense, object)
                 return second, sense
             first = first or found
     raise no_joint_path(first, f"the free end of {object.name} by {other.name}", "there is none")
