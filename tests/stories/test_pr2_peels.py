@@ -18,7 +18,8 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 def test_shell_comes_off_a_boiled_egg_part_by_part_and_its_kernel_stays_whole() -> None:
     run = project(EXAMPLES / "sheet_peeled.toml")
     (peeling,) = [action for action in run.log.actions if action.term.functor == "peel"]
-    assert peeling.outcome == "done"
+    # All of it does not come off.
+    assert peeling.outcome == "not_reached"
     assert float(peeling.evidence["pieces_off"]) > float(peeling.evidence["pieces"]) / 3
     assert run.ask("holds(broken(egg1), T)")
     assert not run.ask("holds(broken(kernel1), T)")
