@@ -12,6 +12,7 @@ from tests.programs.test_programs import FakeHand, carried_out
 from tests.scenes import EGG_IN_HAND, run, scene
 
 from prolepsis.engine import simulation
+from prolepsis.fluents import recognize
 from prolepsis.log.log import Log
 from prolepsis.log.outcomes import GOES_ON, OUTCOMES, Outcome
 from prolepsis.programs.actions.striking import push_down
@@ -135,6 +136,9 @@ def test_a_wiping_over_nothing_has_not_its_force() -> None:
     verb, outcome, reason = ended(log)[-1]
     assert (verb, outcome) == ("wipe", "not_reached")
     assert reason.endswith(" of 1 N")
+    # What it did not touch is told all the same.
+    (wiping,) = recognize(log).select(type="wiping")
+    assert wiping.evidence["outcome"] == "not_reached"
 
 
 PR2_BY_A_TABLE = (

@@ -33,13 +33,13 @@ def dripping(observation: Observation) -> Iterator[Fact]:
 
 @event("wiping", "o1", "o2", action=WIPE)
 def wiping(observation: Observation) -> Iterator[Fact]:
-    """A robot wipes o2 with o1, which touches it."""
+    """A robot wipes o2 with o1, which touches it; or it should, and the outcome says why it did not."""
     for done in observation.log.actions:
         if done.term.functor != WIPE or not {"object", "surface"} <= done.arguments.keys():
             continue
         names = str(done.arguments["object"]), str(done.arguments["surface"])
         start, end = done.start, max(done.end, done.start + 1)
-        if _touch(observation, *names, start, end):
+        if done.outcome != "done" or _touch(observation, *names, start, end):
             evidence: dict[str, float | str] = {"outcome": done.outcome, **done.evidence}
             yield observation.fact("event", "wiping", names, (start, end), evidence)
 

@@ -64,6 +64,8 @@ def wipe(
         if stroke:
             sense = yield from arrived(hand, sense)
             here = (here[0] + along[0], here[1] + along[1], here[2] + along[2])
-    sense = yield (Measured(evidence={"force": total / ticks}),)
-    sense = yield from compared(sense, "force", total / ticks, force, FORCE_WITHIN, "N")
+    # What presses on nothing feels a little of either sign.
+    mean = max(total / ticks, 0.0)
+    sense = yield (Measured(evidence={"force": mean}),)
+    sense = yield from compared(sense, "force", mean, force, FORCE_WITHIN, "N")
     return (yield from travel(hand, sense, (0.0, 0.0, depth), ACCELERATION, LIFT_SPEED))
