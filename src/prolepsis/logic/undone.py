@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 
-from prolepsis.log.outcomes import OUTCOMES
+from prolepsis.log.fact_types import event_of
+from prolepsis.log.outcomes import CARRYING, OUTCOMES
 from prolepsis.log.timeline import Timeline
 from prolepsis.logic.refusals import shown
 from prolepsis.terms.errors import brief, brief_list
@@ -13,6 +14,8 @@ from prolepsis.terms.terms import format_value
 FINE = ("done", "dropped", "unfinished")
 """Outcomes of which nothing need be said here: what was let fall was done until then, what a log cuts off is told as an
 open end."""
+CARRYING_EVENTS = frozenset(event_of(verb) for verb in CARRYING)
+"""What a hand lost before it carried it is like what it let fall then."""
 
 
 def undone_note(timeline: Timeline, goal: str) -> str:
@@ -29,6 +32,7 @@ def undone_note(timeline: Timeline, goal: str) -> str:
         if (
             outcome in OUTCOMES
             and outcome not in FINE
+            and not (outcome == "not_held" and fact.type in CARRYING_EVENTS)
             and named & {each for each in fact.args if isinstance(each, str)}
         ):
             reason = fact.evidence.get("reason")

@@ -107,8 +107,6 @@ class ActionSpec:
     """Called with the scene and the arguments before anything runs; raises PlanError if it cannot work."""
     moves: str | None = None
     """What of the robots it names it moves, ``base`` or ``head``; None for one that moves the hands it names."""
-    carries: bool = False
-    """Whether it moves what its hand holds, whatever that is: a hand that grips and holds nothing carries nothing."""
 
     @property
     def event(self) -> str:
@@ -137,10 +135,7 @@ ACTIONS: dict[str, ActionSpec] = {}
 
 
 def action(
-    *parameters: ParameterSpec,
-    check: Callable[..., None] | None = None,
-    moves: str | None = None,
-    carries: bool = False,
+    *parameters: ParameterSpec, check: Callable[..., None] | None = None, moves: str | None = None
 ) -> Callable[[Callable[..., Behaviour]], Callable[..., Behaviour]]:
     """Register the decorated generator function as an action of its name, and the event that it is.
 
@@ -150,13 +145,7 @@ def action(
     def register(behave: Callable[..., Behaviour]) -> Callable[..., Behaviour]:
         doc = (behave.__doc__ or "").strip().partition("\n")[0]  # `python -OO` leaves none
         ACTIONS[behave.__name__] = ActionSpec(
-            name=behave.__name__,
-            parameters=parameters,
-            doc=doc,
-            behave=behave,
-            check=check,
-            moves=moves,
-            carries=carries,
+            name=behave.__name__, parameters=parameters, doc=doc, behave=behave, check=check, moves=moves
         )
         optional = sum(each.default is not None for each in parameters)
         declare_action(behave.__name__, tuple(each.name for each in parameters), optional=optional)

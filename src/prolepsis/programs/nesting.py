@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from prolepsis.log.outcomes import Outcome
+from prolepsis.log.outcomes import CARRYING, Outcome
 from prolepsis.log.things import Thing
 from prolepsis.programs.action import ACTIONS
 from prolepsis.robots.commands import ActionFailedError, Begin, Behaviour, End, HandSense, Measured, Sense, is_instant
@@ -43,7 +43,7 @@ def as_event(
     peak = -1.0
     hands = [each for each in sense.hands if each in named.values()]
     held = {each: {*sense.hands[each].held()} for each in hands if sense.hands[each].grip > 0}
-    empty = [each for each in held if not held[each] and name in ACTIONS and ACTIONS[name].carries]
+    empty = [each for each in held if not held[each] and name in CARRYING]
     lost = dict.fromkeys(hands, 0)
     sense = yield (Begin(term=term, arguments=named),)
     first = True

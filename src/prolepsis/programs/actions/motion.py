@@ -192,7 +192,7 @@ def _reach_by_arm(
     raise ActionFailedError(first.problem, f"{object.name} by {hand.name}: {first.detail}")
 
 
-@action(HAND, ParameterSpec(name="height", kind="length"), SPEED, ACCELERATION, carries=True)
+@action(HAND, ParameterSpec(name="height", kind="length"), SPEED, ACCELERATION)
 def lift(scene: Scene, sense: Sense, *, hand: Thing, height: float, speed: float, acceleration: float) -> Behaviour:
     """Move the hand straight up (down if negative)."""
     del scene
@@ -204,7 +204,6 @@ def lift(scene: Scene, sense: Sense, *, hand: Thing, height: float, speed: float
     ParameterSpec(name="displacement", kind="displacement"),
     ACCELERATION,
     ParameterSpec(name="speed", kind="speed", default=1.0),
-    carries=True,
 )
 def carry(
     scene: Scene, sense: Sense, *, hand: Thing, displacement: Triple, acceleration: float, speed: float
@@ -214,7 +213,7 @@ def carry(
     return (yield from travel(hand, sense, displacement, acceleration, speed))
 
 
-@action(HAND, ParameterSpec(name="duration", kind="duration"), carries=True)
+@action(HAND, ParameterSpec(name="duration", kind="duration"))
 def hold(scene: Scene, sense: Sense, *, hand: Thing, duration: float) -> Behaviour:
     """Keep the hand where it is and its grip as it is."""
     del scene

@@ -139,7 +139,6 @@ def press(
     HAND,
     ParameterSpec(name="target", kind="object", needs="solid"),
     ParameterSpec(name="height", kind="length", default=0.08),
-    carries=True,
 )
 def bring(scene: Scene, sense: Sense, *, hand: Thing, target: Thing, height: float) -> Behaviour:
     """Move the hand, turned as it is and with what it holds, to a height over the middle of something's top."""

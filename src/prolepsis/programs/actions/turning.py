@@ -17,7 +17,7 @@ ANGLE = ParameterSpec(name="angle", kind="angle")
 RATE = ParameterSpec(name="rate", kind="rate", default=math.radians(30.0))
 
 
-@action(HAND, ANGLE, RATE, carries=True)
+@action(HAND, ANGLE, RATE)
 def tilt(scene: Scene, sense: Sense, *, hand: Thing, angle: float, rate: float) -> Behaviour:
     """Turn the hand about its forward axis to an angle, to its right if positive; 0 is upright again."""
     del scene
