@@ -52,6 +52,17 @@ def test_a_table_is_wet_until_a_sponge_over_the_place_has_taken_the_puddle_up() 
     assert state.attribute("sponge1", "wet")
 
 
+@pytest.mark.parametrize("particles", [100, 400])
+def test_what_is_on_the_other_side_of_a_thin_wall_is_dry(particles: int) -> None:
+    glass = ":glass1 a :Cup ; :radius 0.03 ; :thickness 0.002 ; :on :sponge1 ; :contains :milk1 . "
+    sponge = ":floor a :Floor . :sponge1 a :Sponge ; :on :floor ; :length 0.1 ; :width 0.1 ; :height 0.03 . "
+    timeline = recognize(
+        run(sponge + glass + ":milk1 a :Water ; :fill 0.6 .", "wait(0.3)", duration=0.3, particles=particles)
+    )
+    assert spans(timeline, "wet", "glass1") == [(0.0, 0.3)]
+    assert not timeline.select(type="absorbing") and not spans(timeline, "wet", "sponge1")
+
+
 def test_what_is_gone_but_was_not_wiped_leaves_a_film() -> None:
     state, wetting = begun(PUDDLE + AWAY)
     taken_up(state)

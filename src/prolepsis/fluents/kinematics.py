@@ -94,7 +94,9 @@ def travel(observation: Observation, ticks_before: int, ticks_after: int) -> Flo
     edge = np.flatnonzero((now < ticks_before) | (now >= count - ticks_after))
     if count > 1 and len(edge):
         first, last = np.maximum(edge - ticks_before, 0), np.minimum(edge + ticks_after, count - 1)
-        first[first == last] = count - 2
+        # At the ends, where one side is empty, the nearest tick speaks for it.
+        alone = first == last
+        first, last = np.where(alone & (last > 0), last - 1, first), np.where(alone & (last == 0), 1, last)
         found[:, edge] = _speeds(observation, first, last)
     return found
 

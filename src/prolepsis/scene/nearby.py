@@ -7,10 +7,17 @@ from functools import lru_cache
 import numpy as np
 
 from prolepsis.geometry.rotations import matrix
-from prolepsis.geometry.shape import FloatArray, IntArray, Shape
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray, Shape
 from prolepsis.geometry.signed_distance import field_of
 from prolepsis.geometry.solids import bounded
 from prolepsis.scene.running import Running
+
+NUDGE = 1.0e-5
+"""Step with which the direction to a surface is found [m]."""
+SAMPLES = 9
+"""Places on the way to a surface that are looked at [1]."""
+WITHIN = 1.0e-5
+"""So far within a solid a place is in it, and not where two touch [m]."""
 
 
 def solids_of(state: Running) -> list[int]:
@@ -33,6 +40,33 @@ def touching(state: Running, index: int, points: FloatArray, reach: float) -> In
     low, high = _box(shape)
     near = np.flatnonzero(((local > low - reach) & (local < high + reach)).all(axis=1))
     return near[field_of(shape).distance(local[near]) < reach]
+
+
+def unobstructed(state: Running, index: int, points: FloatArray) -> BoolArray:
+    """Return at which world points near a thing, shape (n, 3), no other solid is on the way to its surface, shape (n,).
+
+    Where a wall is thinner than a particle, what lies on one side of it is near what is on the other.
+    """
+    free = np.ones(len(points), dtype=np.bool_)
+    if not len(points):
+        return free
+    distance = distance_to(state, index, points)
+    slope = [distance_to(state, index, points + NUDGE * axis) - distance for axis in np.eye(3)]
+    out = np.stack(slope, axis=1) / NUDGE
+    out /= np.maximum(np.linalg.norm(out, axis=1, keepdims=True), 1e-9)
+    way = (
+        points[:, None] - np.linspace(0.0, 1.0, SAMPLES)[:, None] * (np.maximum(distance, 0.0)[:, None] * out)[:, None]
+    )
+    for other in solids_of(state):
+        if other != index:
+            shape, pose = state.scene.things[other].shape, state.pose(state.scene.things[other].name)
+            local = (way - pose[:3]) @ matrix(pose[3:])
+            low, high = _box(shape)
+            beside = np.flatnonzero(((local > low) & (local < high)).all(axis=2).any(axis=1) & free)
+            if len(beside):
+                inside = field_of(shape).distance(local[beside].reshape(-1, 3)).reshape(-1, SAMPLES) < -WITHIN
+                free[beside] &= ~inside.any(axis=1)
+    return free
 
 
 @lru_cache(maxsize=4096)

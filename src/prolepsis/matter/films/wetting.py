@@ -15,7 +15,7 @@ from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.log.happenings import film
 from prolepsis.log.things import friction_of
 from prolepsis.scene.kind import Controller
-from prolepsis.scene.nearby import distance_to, solids_of, touching
+from prolepsis.scene.nearby import distance_to, solids_of, touching, unobstructed
 from prolepsis.scene.running import Running
 
 LOOK_TICKS = 50
@@ -61,6 +61,7 @@ class Wetting(Controller):
             if index in self._wet and (not self._absorbent or index in self._absorbent):
                 continue
             near = touching(state, index, positions, TOUCH_REACH * particles.spacing)
+            near = near[unobstructed(state, index, positions[near])]
             if index in self._wet:
                 self._wipe(state, index, particles.spacing, positions[near])
             elif len(near):

@@ -17,7 +17,7 @@ from prolepsis.matter.sponges.carried_mass import CarriedMass
 from prolepsis.matter.sponges.sponge_law import SpongeLaw
 from prolepsis.matter.sponges.sponge_surface import SpongeSurface, nearest_of
 from prolepsis.scene.kind import Controller
-from prolepsis.scene.nearby import distance_to, solids_of
+from prolepsis.scene.nearby import distance_to, solids_of, unobstructed
 from prolepsis.scene.particles import ParticleState
 from prolepsis.scene.running import MAX_STEP, Running
 
@@ -119,6 +119,8 @@ class Absorbing(Controller):
         local = (particles.position[free] - origin) @ rotation
         touching = self.surface.touched_by(local, TOUCH_REACH * spacing)
         free, local = free[touching], local[touching]
+        seen = unobstructed(state, self.index, particles.position[free])
+        free, local = free[seen], local[seen]
         if len(free) and held >= law.retained:
             # What has dripped from it is not sucked back.
             hanging = self.surface.is_below(local, rotation.T @ self._up(state))
