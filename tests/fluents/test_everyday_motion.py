@@ -117,6 +117,17 @@ def test_spinning_in_place_is_moving() -> None:
     assert not of_type(timeline, "falling", "colliding")
 
 
+def test_what_jitters_and_is_then_struck_moves_from_the_blow_on() -> None:
+    def control(model: Any, data: Any) -> None:
+        data.qvel[:6] = 0.0
+        data.qvel[0] = 0.8 if 0.3 <= data.time < 0.6 else 0.0
+        data.qvel[5] = 0.0 if 0.3 <= data.time < 0.6 else 0.2 * math.sin(2 * math.pi * 80 * data.time)
+
+    timeline = watch(world(FLOOR + BRICK), 0.9, control)
+    ((start, _),) = times(timeline, "moving(brick)")
+    assert start == pytest.approx(0.3, abs=0.005), "not a window earlier"
+
+
 def test_a_ball_that_rolls_about_in_a_bowl_stays_in_it() -> None:
     bowl = free("bowl", "0 0 .0001", cup_geoms(0.1, 0.06))
     timeline = watch(world(FLOOR + bowl + ball("ball", "0 0 .0242", 0.02)), 1.2, thrown(0, 0, 0, 0, 0, 0, 0.3))
