@@ -73,17 +73,22 @@ def crossings(things: Sequence[Thing], poses: FloatArray, stretches: Sequence[St
             if not len(blocks):
                 continue
             own, other = np.flatnonzero(matter.thing == mover), np.flatnonzero(matter.thing == obstacle)
-            solid_pairs = motion.close(
-                (mover, obstacle),
-                blocks,
-                [followed[row] for row in own.tolist()],
-                [followed[row] for row in other.tolist()],
-                matter.meet(own, other),
+            solid_pairs = list(
+                motion.close(
+                    (mover, obstacle),
+                    blocks,
+                    [followed[row] for row in own.tolist()],
+                    [followed[row] for row in other.tolist()],
+                    matter.meet(own, other),
+                )
             )
+            if not solid_pairs:
+                continue
+            course = motion.course((mover, obstacle), np.unique(np.concatenate([row[2] for row in solid_pairs])))
             found = [
                 (tick, 2.0 * min(one.half, wall.half))
                 for one, wall, chosen in solid_pairs
-                if (tick := motion.first_within((mover, obstacle), one, wall, chosen)) is not None
+                if (tick := course.first_within(one, wall, chosen)) is not None
             ]
             if found:
                 tick, thickness = min(found)
@@ -242,26 +247,45 @@ class _Motion:
                 if len(some):
                     yield own, wall, blocks[some]
 
-    def first_within(self, things: tuple[int, int], own: _Followed, wall: _Followed, blocks: IntArray) -> int | None:
+    def course(self, things: tuple[int, int], blocks: IntArray) -> _Course:
+        """Return how one thing moves in the frame of the other in some blocks."""
+        ticks = np.minimum(self.starts[blocks][:, None] + np.arange(BLOCK + 1), len(self.poses) - 1)
+        own, other = (self.poses[ticks.ravel(), thing] for thing in things)
+        position, turned = _relative(own[:, :3], matrices(own[:, 3:]), other[:, :3], matrices(other[:, 3:]))
+        return _Course(
+            blocks=blocks,
+            ticks=ticks,
+            position=position.reshape(*ticks.shape, 1, 3),
+            turned=turned.reshape(*ticks.shape, 3, 3),
+        )
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class _Course:
+    """How one thing moves in the frame of another in B blocks, to the first tick after each."""
+
+    blocks: IntArray
+    """Their numbers, ascending, shape (B,)."""
+    ticks: IntArray
+    """Shape (B, BLOCK + 1); after the last tick that again."""
+    position: FloatArray
+    """Shape (B, BLOCK + 1, 1, 3)."""
+    turned: FloatArray
+    """Shape (B, BLOCK + 1, 3, 3)."""
+
+    def first_within(self, own: _Followed, wall: _Followed, blocks: IntArray) -> int | None:
         """Return the first tick in some blocks at which one solid is too deep in the other, if there is one."""
         most = own.most(wall)
-        ticks = (self.starts[blocks][:, None] + np.arange(BLOCK)).ravel()
-        ticks = ticks[ticks < len(self.poses)]
-        begin = self._paths(things, own.points, ticks)
-        end = self._paths(things, own.points, np.minimum(ticks + 1, len(self.poses) - 1))
+        some = np.searchsorted(self.blocks, blocks)
+        paths = self.position[some] + own.points @ self.turned[some].swapaxes(2, 3)
+        begin, end = paths[:, :-1].reshape(-1, *own.points.shape), paths[:, 1:].reshape(-1, *own.points.shape)
         gaps = wall.distance(begin.reshape(-1, 3)).reshape(begin.shape[:2])
         rows, columns = np.nonzero(gaps - np.linalg.norm(end - begin, axis=2) < -most)
         if not len(rows):
             return None
         deepest = _deepest(wall, begin[rows, columns], end[rows, columns])
         within = np.flatnonzero(deepest < -most[columns])
-        return int(ticks[rows[within[0]]]) if len(within) else None
-
-    def _paths(self, things: tuple[int, int], points: FloatArray, ticks: IntArray) -> FloatArray:
-        """Return where points of one thing are in the frame of the other, shape (ticks, points, 3)."""
-        own, other = (self.poses[ticks, thing] for thing in things)
-        position, turned = _relative(own[:, :3], matrices(own[:, 3:]), other[:, :3], matrices(other[:, 3:]))
-        return position[:, None] + points @ turned.transpose(0, 2, 1)
+        return int(self.ticks[some, :-1].ravel()[rows[within[0]]]) if len(within) else None
 
 
 def _relative(
