@@ -107,6 +107,12 @@ def test_an_occupied_folder_is_refused_before_simulating(place: Path, tmp_path: 
     assert told == []
 
 
+def test_it_is_told_when_a_run_has_ended_and_is_checked(place: Path) -> None:
+    told: list[str] = []
+    project(place / "short.toml", progress=told.append)
+    assert [told[-3].partition(":")[0], *told[-2:]] == ["simulating", "checking", "recognizing"]
+
+
 def test_an_unknown_parameter_is_refused(place: Path) -> None:
     with pytest.raises(UnknownNameError, match="no parameter named 'speed'"):
         project(place / "short.toml", speed=2)

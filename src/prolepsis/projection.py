@@ -190,6 +190,7 @@ def project_into(
         seed=read.seed,
         monitors=read.monitors,
         progress=lambda time: tell(f"simulating: {time:.1f} s"),
+        checking=lambda: tell("checking"),
     )
     tell("recognizing")
     timeline = recognize(log, domain=scene.domain)

@@ -55,6 +55,7 @@ def simulate(
     max_step: float = MAX_STEP,
     monitors: Mapping[str, Sequence[str]] | None = None,
     progress: Callable[[float], None] | None = None,
+    checking: Callable[[], None] | None = None,
 ) -> Log:
     """Run a program in a world and return the log.
 
@@ -66,6 +67,7 @@ def simulate(
         max_step: Longest substep [s]; kinds of matter ask for shorter ones.
         monitors: Thing to the names of what is logged of it; the defaults for things that are not named.
         progress: Called now and then with the simulated time [s].
+        checking: Called when the run has ended and is looked through for what physics does not allow.
 
     Raises:
         ScenarioError: If the duration is out of range, or a monitor does not suit its thing.
@@ -168,6 +170,8 @@ def simulate(
         tick += 1
         state.tick = tick
 
+    if checking is not None:
+        checking()
     actions += [replace(action, end=tick) for begun in running.values() for action in begun]
     poses, carriers = recorder.pose_columns()
     contacts, particles = recorder.contact_columns(TICK), frames.table(state)
