@@ -318,6 +318,15 @@ def test_render_writes_video_frames_and_strip(saved: Path, tmp_path: Path, capfd
     assert capfd.readouterr().out.splitlines() == [str(video), *map(str, written), str(strip)]
 
 
+def test_render_tells_how_much_of_a_strip_is_drawn(
+    saved: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["render", str(saved), "--strip", str(tmp_path / "strip.png"), "--count", "2", "--progress"]) == 0
+    told = capfd.readouterr().err
+    assert "drawing: 50%" in told
+    assert "drawing: 100%" in told
+
+
 def test_an_interrupted_projection_leaves_nothing(tmp_path: Path) -> None:
     out = tmp_path / "run"
     command = [sys.executable, "-m", "prolepsis", "project", str(EXAMPLES / "dropped_egg.toml"), "--out", str(out)]

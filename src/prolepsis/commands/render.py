@@ -61,7 +61,8 @@ def run(given: argparse.Namespace) -> int:
             for file in render_frames(log, given.frames, count=count, size=size, progress=tell):
                 print(file)
         if given.strip:
-            render_strip(log, given.strip, times=times, count=5 if given.count is None else given.count)
+            count = 5 if given.count is None else given.count
+            render_strip(log, given.strip, times=times, count=count, progress=tell)
             print(given.strip)
     return 0
 

@@ -113,6 +113,7 @@ def render_strip(
     count: int = 5,
     size: tuple[int, int] = (360, 420),
     part: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0),
+    progress: Callable[[float], None] | None = None,
     **view: float,
 ) -> None:
     """Write one PNG with moments side by side, each with its time.
@@ -124,6 +125,7 @@ def render_strip(
         count: How many moments when ``times`` are not given.
         size: Width and height of each picture [pixel].
         part: Which part of the whole view is shown: left, top, right and bottom edge as shares of it [1].
+        progress: Called with the fraction done.
         view: ``azimuth`` and ``elevation`` of the camera [degree].
 
     Raises:
@@ -149,7 +151,7 @@ def render_strip(
     with closing(pictures(log, ticks, size=whole, **view)) as made:
         shown = [
             _with_time(picture[top : top + height, left : left + width], float(log.time[tick]))
-            for tick, picture in zip(ticks, made, strict=True)
+            for tick, picture in zip(ticks, _report(made, len(ticks), progress), strict=True)
         ]
     strip = Image.new("RGB", (len(shown) * (width + 4) - 4, height), "white")
     for i, picture in enumerate(shown):
