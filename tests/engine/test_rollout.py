@@ -165,3 +165,18 @@ def test_a_stuff_that_cannot_be_one_is_refused(stuffs: dict[str, str], message: 
     model, states = beads("bead1", "bead2", "pea")
     with pytest.raises(InputError, match=message):
         Log.from_mujoco(model, states, STEP, stuffs=stuffs)
+
+
+def test_a_tick_that_the_states_own_times_contradict_is_refused() -> None:
+    model, states = roll(world(FLOOR + ball("ball", "0 0 .5")), 0.2)
+    with pytest.raises(InputError, match=r"dt: 0.002 s, but by their own times the states are 0.01 s apart"):
+        Log.from_mujoco(model, states[::5], 0.002)
+    timeless = states[::5].copy()
+    timeless[:, 0] = 0.0
+    assert Log.from_mujoco(model, timeless, 0.01).dt == 0.01
+
+
+def test_what_says_more_of_a_thing_is_a_thing() -> None:
+    model, states = roll(world(FLOOR + ball("ball", "0 0 .5")), 0.02)
+    with pytest.raises(InputError, match="scene: ball is given 'Gripper'; needed: a Thing"):
+        Log.from_mujoco(model, states, STEP, {"ball": "Gripper"})  # pyright: ignore[reportArgumentType]

@@ -374,3 +374,11 @@ def test_all_answers_together_have_bounds(session: Session) -> None:
     with pytest.raises(GoalLimitError, match="the answers have more than 50,000,000 characters; set a limit"):
         words = "length(_L, 900000), maplist(=(x), _L), atomic_list_concat(_L, A), between(1, 100, N)"
         session.ask(timeline(), words, time_limit=60.0)
+
+
+def test_a_displacement_of_an_action_is_the_list_that_the_plan_has() -> None:
+    carrying = Fact(kind="event", type="carrying", args=("hand1", "[0.1,-0.37,0]"), start=0.0, end=0.5)
+    timeline = make_timeline([carrying], dt=0.001, duration=1.0)
+    assert timeline.ask("occurs(carrying(hand1, [0.1, -0.37, 0]), T)")
+    (answer,) = timeline.ask("occurs(carrying(H, D), _), is_list(D), nth0(1, D, Y)")
+    assert answer["Y"] == -0.37 and answer["H"] == "hand1"

@@ -218,3 +218,20 @@ def evidence_in(file: Path) -> Iterator[str]:
             case _:
                 continue
         yield from (str(key.value) for key in keys if isinstance(key, ast.Constant))
+
+
+def test_a_fact_that_occurs_with_other_arguments_is_told_and_not_denied(session: Session) -> None:
+    with pytest.raises(GoalError, match=r"^grasping/4 does not occur; what does is written grasping\(X, Y, Z\)"):
+        session.ask(RUN1, "occurs(grasping(hand1, egg1, Force, Height), T)")
+
+
+@pytest.mark.parametrize("goal", ["holds(broken(egg1), T), T > 1", "1 >= T, occurs(E, T)", "holds(F, T), T - 1 =:= 0"])
+def test_an_interval_is_not_compared_as_if_it_were_a_number(session: Session, goal: str) -> None:
+    with pytest.raises(GoalError, match="gives an interval and no number to compare; write S-E for it"):
+        session.ask(RUN1, goal)
+
+
+def test_an_instant_and_the_ends_of_an_interval_are_compared(session: Session) -> None:
+    assert session.ask(RUN1, "T = 1.0, holds(broken(egg1), T), T > 0.5")
+    assert session.ask(RUN1, "member(T, [0.1, 1.0]), holds(broken(egg1), T), T > 0.5") == [{"T": 1.0}]
+    assert session.ask(RUN1, "holds(broken(egg1), T), T = S-E, S < 1, E > 1")

@@ -9,6 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from prolepsis.commands.output import add_command, json_line, table, warn_unchecked
+from prolepsis.system.cache import note
 from prolepsis.terms.errors import InputError, UnknownNameError
 
 if TYPE_CHECKING:
@@ -44,13 +45,13 @@ def add_to(commands: Any) -> None:
     parser.add_argument(
         "--from",
         dest="begin",
-        type=float,
+        type=_time,
         default=-math.inf,
         metavar="S",
         help="only facts that end after this time [s]",
     )
     parser.add_argument(
-        "--to", dest="end", type=float, default=math.inf, metavar="S", help="only facts that start before this time [s]"
+        "--to", dest="end", type=_time, default=math.inf, metavar="S", help="only facts that start before this time [s]"
     )
     parser.add_argument(
         "--json",
@@ -72,7 +73,22 @@ def run(given: argparse.Namespace) -> int:
             print(json_line(row))
     else:
         print(table(rows(timeline, all=given.all)))
+    if not timeline.facts:
+        note(f"none of what is chosen is so; the log lasts {timeline.duration:g} s")
     return 0
+
+
+def _time(text: str) -> float:
+    """Return a time with or without its unit [s]."""
+    from prolepsis.terms.units import read_quantity
+
+    try:
+        return float(text)
+    except ValueError:
+        read = read_quantity(text)
+    if read is None or read[1] != "s":
+        raise argparse.ArgumentTypeError(f"{text!r} is no time; allowed: seconds, as 0.5 or '0.5 s'")
+    return read[0]
 
 
 def selected(timeline: Timeline, names: Sequence[str], types: Sequence[str], begin: float, end: float) -> Timeline:
@@ -86,7 +102,7 @@ def selected(timeline: Timeline, names: Sequence[str], types: Sequence[str], beg
     from prolepsis.log.folding import about
 
     known = {name for name, _ in timeline.domain.instances}
-    known |= {each for fact in timeline.facts for each in fact.args if isinstance(each, str)}
+    known |= {each for fact in timeline.facts for each in fact.args if isinstance(each, str) and each[:1] != "["}
     for name in names:
         if name not in known:
             raise UnknownNameError.of("thing", name, known, "--about")

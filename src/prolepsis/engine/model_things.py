@@ -13,7 +13,7 @@ from prolepsis.geometry.shape import IntArray, quaternion, triple
 from prolepsis.log.things import FIXED, FREE, Mount, Thing, jointed
 from prolepsis.robots.model_shapes import shape_of_geoms
 from prolepsis.system.mujoco import mujoco
-from prolepsis.terms.errors import InputError, UnknownNameError
+from prolepsis.terms.errors import InputError, UnknownNameError, brief
 
 # Numpy's integers do not equal MuJoCo's enumerators, so plain integers are compared.
 _PLANE = int(mujoco.mjtGeom.mjGEOM_PLANE)
@@ -93,7 +93,13 @@ def model_things(
 def _overridden(things: tuple[Thing, ...], scene: SceneThings | None) -> tuple[Thing, ...]:
     if scene is None:
         return things
-    given = dict(scene) if isinstance(scene, Mapping) else {thing.name: thing for thing in scene}
+    given = dict(scene) if isinstance(scene, Mapping) else {getattr(thing, "name", ""): thing for thing in scene}
+    for name, thing in given.items():
+        if not isinstance(thing, Thing):  # pyright: ignore[reportUnnecessaryIsInstance]
+            raise InputError(
+                f"scene: {brief(name)} is given {brief(repr(thing))}; needed: a Thing, as "
+                "Thing(name='hand', kind='Gripper', roles=frozenset({'Gripper'}))"
+            )
     known = {thing.name for thing in things}
     for name in given:
         if name not in known:

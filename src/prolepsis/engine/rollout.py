@@ -49,6 +49,7 @@ def read_rollout(
     if not (np.isfinite(dt) and dt > 0):
         raise InputError(f"dt: {dt} s; a positive time is needed")
     _refuse_unstable(states, dt)
+    _refuse_other_times(states[:, 0], dt)
     data = mujoco.MjData(model)
     mujoco.mj_setState(model, data, states[0], signature)
     mujoco.mj_kinematics(model, data)
@@ -86,6 +87,13 @@ def read_rollout(
         joints=_joints(model, found, switched, sticking, stuck, contacts, touching),
         gravity=(float(model.opt.gravity[0]), float(model.opt.gravity[1]), float(model.opt.gravity[2])),
     )
+
+
+def _refuse_other_times(times: FloatArray, dt: float) -> None:
+    """Refuse a tick that the states' own times contradict; a recording that keeps no time has none of them."""
+    apart = np.diff(times)
+    if len(apart) and (apart > 0).all() and abs(float(np.median(apart)) - dt) > 0.01 * dt:
+        raise InputError(f"dt: {dt:g} s, but by their own times the states are {float(np.median(apart)):g} s apart")
 
 
 def _refuse_unstable(states: FloatArray, dt: float) -> None:

@@ -73,6 +73,10 @@ def refusal(status: str, body: str, goal: str, time_limit: float, timeline: Time
             )
         case "unbound":
             return GoalError(f"not permitted: a goal that is known only when the query runs: {shown(goal)}")
+        case "compared":
+            return GoalError(
+                f"{brief(body)} gives an interval and no number to compare; write S-E for it, and compare S or E"
+            )
         case "interval":
             return GoalError(f"not an interval: {brief(body)}; an interval is Start-End, with Start before End")
         case "time":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from pathlib import Path
@@ -12,6 +13,8 @@ from prolepsis.log.timeline import Argument, Fact, Timeline
 from prolepsis.terms.terms import format_atom, format_value
 from prolepsis.terms.ticks import ticks_of
 
+_LIST = re.compile(r"\[-?[0-9.]+(?:e[-+]?[0-9]+)?(?:,-?[0-9.]+(?:e[-+]?[0-9]+)?)*\]")
+"""A list of numbers as it is written."""
 _atom = lru_cache(maxsize=65536)(format_atom)
 
 
@@ -30,7 +33,10 @@ def write_run(timeline: Timeline, file: Path) -> None:
 
 
 def _text(value: Argument) -> str:
-    return _atom(value) if isinstance(value, str) else format_value(value)
+    if isinstance(value, str):
+        # A displacement of an action is a list in a goal, as it is in the plan.
+        return value if _LIST.fullmatch(value) else _atom(value)
+    return format_value(value)
 
 
 def _type_rows(facts: Iterable[Fact]) -> Iterable[str]:

@@ -8,7 +8,7 @@ from prolepsis.log.fact_types import event_of
 from prolepsis.log.outcomes import CARRYING, OUTCOMES
 from prolepsis.log.timeline import Timeline
 from prolepsis.logic.refusals import shown
-from prolepsis.terms.errors import brief, brief_list
+from prolepsis.terms.errors import brief
 from prolepsis.terms.terms import format_value
 
 FINE = ("done", "dropped", "unfinished")
@@ -16,6 +16,9 @@ FINE = ("done", "dropped", "unfinished")
 open end."""
 CARRYING_EVENTS = frozenset(event_of(verb) for verb in CARRYING)
 """What a hand lost before it carried it is like what it let fall then."""
+
+REASON, MOST = 160, 3
+"""Characters of a reason that are told, and how many actions."""
 
 
 def undone_note(timeline: Timeline, goal: str) -> str:
@@ -36,5 +39,6 @@ def undone_note(timeline: Timeline, goal: str) -> str:
             and named & {each for each in fact.args if isinstance(each, str)}
         ):
             reason = fact.evidence.get("reason")
-            told.append(f"{brief(format_value(fact.term))} was {outcome}" + (f" ({brief(reason)})" if reason else ""))
-    return f"no, but {brief_list(told)}: {shown(goal)}" if told else ""
+            why = f" ({brief(reason, REASON)})" if reason else ""
+            told.append(f"{brief(format_value(fact.term), REASON)} was {outcome}{why}")
+    return f"no, but {'; '.join(told[:MOST])}{' ...' if len(told) > MOST else ''}: {shown(goal)}" if told else ""

@@ -41,6 +41,9 @@ def unknown_name(body: str) -> str:
 def _unknown_fact(kind: str, name: str, facts: list[tuple[str, int, str]]) -> str:
     plain, _, arity = name.rpartition("/")
     what = WHAT.get(kind, kind)
+    if kind == "occurring":
+        told = " or ".join(pattern(plain, count) for other, count, _ in facts if other == plain)
+        return f"{brief(name)} does not occur; what does is written {told}, as the plan has it"
     for other, count, its in facts:
         if other == plain and str(count) == arity:
             return f"{plain} is {_a(its)}, no {what}; ask {PREDICATES[its]}({pattern(plain, count)}, T)"

@@ -17,6 +17,7 @@
 :- use_module(library(solution_sequences)).
 :- use_module(runs).
 :- use_module(guard).
+:- use_module(compared).
 :- use_module(names).
 :- use_module(open_ends).
 :- use_module(order).
@@ -49,6 +50,7 @@ answers(Run, Text, Limit, Seconds, Lines) :-
 found(Run, Goal0, Values, Limit, Answers) :-
     check_goal(Goal0),
     check_names(Goal0),
+    check_compared(Goal0),
     order_goal(Goal0, Goal),
     % Nothing that is permitted changes a fact; should it ever, snapshot/1 undoes it.
     snapshot(findall(Answer, limit(Limit, distinct(Answer, answer(Run, Goal, Values, Answer))), Answers)).
@@ -271,6 +273,8 @@ refusal(unknown_name(Kind, Named), ["name\n", Of, "\n", Text, "\n", Known]) :-
     known_names(Kind, Names),
     findall(Each, ( member(Known0, Names), format(atom(Each), '~q', [Known0]) ), All),
     atomic_list_concat(All, '\t', Known).
+refusal(compared_interval(Reader), ["compared\n", Text]) :-
+    short_text(Reader, Text).
 refusal(unknown_relation(Name), ["relation\n", Text]) :-
     short_text(Name, Text).
 refusal(not_permitted(Goal), [Kind, Text]) :-

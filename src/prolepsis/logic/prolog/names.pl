@@ -108,8 +108,31 @@ check_found_nothing(Goal) :-
     functor(Form, Name, Arity),
     takes(Form),
     check_arguments(Arity, Form, Goal),
+    check_arities(Arity, Form, Goal),
     !,
     fail.
+
+%   A fact that occurs with other arguments only has not been asked for: an action has those that its plan gives it.
+
+check_arities(0, _, _) :- !.
+check_arities(N, Form, Goal) :-
+    arg(N, Form, Kind),
+    arg(N, Goal, Term),
+    (   fact_kind(Kind),
+        callable(Term),
+        functor(Term, Name, Arity),
+        occurs_with(Kind, Name, _),
+        \+ occurs_with(Kind, Name, Arity)
+    ->  unknown(occurring, Name/Arity)
+    ;   true
+    ),
+    Rest is N-1,
+    check_arities(Rest, Form, Goal).
+
+occurs_with(Kind, Name, Arity) :-
+    of_kind(Kind, Known),
+    known_run(_, Run),
+    occurring(Run, Known, Name, Arity).
 
 check_arguments(0, _, _) :- !.
 check_arguments(N, Form, Goal) :-
@@ -288,6 +311,12 @@ candidate(Kind, Candidate), fact_kind(Kind) =>
         Run:type(Name, Known),
         once(( table_row(Known, Run, Name, _, _, Term, _, _, _), functor(Term, _, Arity) ))
     ).
+candidate(occurring, Candidate) =>
+    Candidate = Name/Arity-Kind,
+    known_run(_, Run),
+    Run:type(Name, Kind),
+    table_row(Kind, Run, Name, _, _, Term, _, _, _),
+    functor(Term, _, Arity).
 candidate(type(Kind), Name) =>
     of_kind(Kind, Known),
     (   fact_type(Name, _, Known)
