@@ -6,13 +6,13 @@ what is carried along stays inside; all others are looked at for the surfaces th
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from prolepsis.fluents.hollows import NEAR, PLUG, hollows_of
+from prolepsis.fluents.hollows import NEAR, covered, hollows_of, stopped_levels
 from prolepsis.fluents.intervals import ticks_of
 from prolepsis.fluents.kernels.matter import assembled
 from prolepsis.fluents.observation import Observation, is_held_from_outside, named
@@ -230,12 +230,9 @@ def _seen_inside(observation: Observation, particles: Particles, loose: BoolArra
     poses = np.ascontiguousarray(observation.log.poses[particles.tick, shape.body])
     during = shape.during[particles.tick]
     rim = Rim(
-        space=space, plug=PLUG, up=hollows.up, which=which, during=during, base=poses[:, :3] @ observation.up, levels={}
-    )
-    if all(part.shape.profile for part in shape.parts):
-        rim = replace(rim, plug=0.0)
-        if any(part.shape.holes for part in shape.parts):
-            rim = replace(rim, space=space.on_same_grid(assembled(shape.parts, plugged=True)))
+        space=hollows.whole, plug=hollows.plug, up=hollows.up, which=which, during=during,
+        base=poses[:, :3] @ observation.up, levels={},
+    )  # fmt: skip
     within = rim.space.hollow(rim.plug)
     if not within.any():
         return None
@@ -243,20 +240,20 @@ def _seen_inside(observation: Observation, particles: Particles, loose: BoolArra
     near = spread(within, free, max(1, round(NEAR * spacing / space.step)))
     bits, over_holes = np.zeros(loose.shape, dtype=np.uint8), np.zeros(loose.shape, dtype=np.uint8)
     depth = np.zeros(loose.shape, dtype=np.float32)
-    is_level = rim.space is space and not rim.plug
     # The cracks of a fragment are no holes of a vessel, which one would call whole but for them.
-    has_holes = not is_level and not observation.has_role(shape.body, "Piece")
+    has_holes = hollows.has_holes and not observation.has_role(shape.body, "Piece")
     for direction in np.unique(which[during]).tolist():
         up = hollows.up[direction]
         frames = np.flatnonzero(during & (which == direction))
         pool = space.pools(up)
-        if is_level:
+        if not hollows.has_holes:
             rim.levels[direction] = float(pool.max())
-        pool = _covered(space, up, pool)
+        pool = covered(space, up, pool)
         if has_holes:
             pool_bits(
                 particles.position, frames, loose, poses, up, space.origin, space.step, rim.space.distance,
-                _stopped(rim, space, up), within, near, spacing, SURFACE_TOLERANCE * spacing, over_holes, depth,
+                stopped_levels(hollows, up, rim.plug), within, near, spacing, SURFACE_TOLERANCE * spacing, over_holes,
+                depth,
             )  # fmt: skip
         pool_bits(
             particles.position, frames, loose, poses, up, space.origin,
@@ -270,20 +267,6 @@ def _seen_inside(observation: Observation, particles: Particles, loose: BoolArra
     near = hollow | ((bits & ROUND) > 0)
     unit = int(observation.unit[shape.body])
     return Inside(unit=unit, pool=pool, hollow=hollow, near=near, depth=depth, rims=(rim,))
-
-
-def _covered(space: Space, up: FloatArray, levels: FloatArray) -> FloatArray:
-    """Return spill levels with those of closed hollows, which are infinite, at their highest place [m]."""
-    closed = np.isposinf(levels)
-    return np.where(closed, space.heights(up)[closed].max(), levels) if closed.any() else levels
-
-
-def _stopped(rim: Rim, space: Space, up: FloatArray) -> FloatArray:
-    """Return the spill level of each node with the holes stopped [m], those within drilled holes included."""
-    levels = _covered(rim.space, up, rim.space.stopped(up, rim.plug))
-    highest = float(levels.max())
-    drilled = (rim.space.distance < 0.0) & (space.distance >= 0.0) & (space.heights(up) <= highest)
-    return np.where(drilled, highest, levels)
 
 
 def _stays(observation: Observation, particles: Particles, poses: FloatArray) -> BoolArray:
