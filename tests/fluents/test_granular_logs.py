@@ -109,6 +109,24 @@ def test_some_beads_are_contained_while_others_are_spilled() -> None:
     assert not of_type(timeline, "falling", "spilling", "contacts") - {"contacts(cup,floor)"}
 
 
+def test_beads_beside_the_slot_in_a_cup_stay_in_it_and_those_above_the_slot_are_spilled() -> None:
+    slot = "".join(f'<geom type="box" size=".01 .03 .002" pos="{x} 0 .002" mass=".1"/>' for x in (-0.0175, 0.0175))
+    legs = "".join(
+        f'<geom type="box" size=".003 .003 .02" pos="{x} {y} -.02" mass=".1"/>'
+        for x in (-0.02, 0.02)
+        for y in (-0.02, 0.02)
+    )
+    sieve = free("sieve", "0 0 .0401", cup_geoms(0.03, 0.06, bottom=False) + slot + legs)
+    beside = [f"{0.0165 * side} {0.0125 * (k - 1)} .0503" for side in (-1, 1) for k in range(3)]
+    above = [f"0 {0.0125 * (k - 1)} .0603" for k in range(3)]
+    beads = "".join(bead(k, where) for k, where in enumerate([*beside, *above]))
+    timeline = watch(world(FLOOR + sieve + beads), 0.6, stuffs=BEADS)
+    assert the(timeline, "contains(sieve,beads)").evidence["fraction"] == pytest.approx(6 / 9)
+    assert the(timeline, "spilled(beads)").evidence["fraction"] == pytest.approx(3 / 9)
+    assert the(timeline, "contains(sieve,beads)").start < 0.05
+    assert {"contains(sieve,beads)", "spilled(beads)"} <= at_end(timeline)
+
+
 def test_one_bead_beside_the_cup_is_noticed() -> None:
     beads = "".join(bead(k, in_cup(k) if k < 11 else on_floor(k)) for k in range(12))
     timeline = watch(world(FLOOR + free("cup", "0 0 .0001", CUP) + beads), 0.4, stuffs=BEADS)

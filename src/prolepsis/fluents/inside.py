@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -40,7 +41,9 @@ class Depths:
     depth: FloatArray
     """How far its middle is below the spill level [m], shape (K,)."""
     stretches: IntArray
-    """When it was inside."""
+    """When it was inside, be it that only the holes, stopped, would keep it there."""
+    surely: IntArray
+    """When it was so, holes or not."""
     at_rest: IntArray
     """When it was at rest relative to the container."""
 
@@ -58,7 +61,7 @@ def depths_within(observation: Observation, hollow: RigidShape, shape: RigidShap
         hollow: The shape that may have depressions.
         shape: The shape that may be in one.
         borne: When something that may be the container or in it bears the body, shape (T,). Before it is
-            borne or at rest in the hollow, nothing is looked at.
+            borne or at rest in the hollow, nothing is looked at; before it is both, no hole is stopped.
     """
     both = hollow.during & shape.during
     step = ticks_of(LOOK_STEP, observation.dt)
@@ -73,26 +76,28 @@ def depths_within(observation: Observation, hollow: RigidShape, shape: RigidShap
     middle = weights @ points
     near = _between_bounds(observation, hollow, shape, middle, looked)
     at_rest = _at_rest(observation, hollow.body, shape, middle, both) if near.any() else runs(near)
-    near = _since_anchored(near, looked, mask_of(at_rest, observation.tick_count) | borne)
+    rests = mask_of(at_rest, observation.tick_count)
+    near = _since_anchored(near, looked, rests | borne)
     if not near.any():
         return None
     viewer = _Viewer(observation=observation, hollow=hollow, shape=shape, points=points, weights=weights)
     share, depth = np.zeros(len(looked)), np.zeros(len(looked))
     share[near], depth[near] = viewer.look(looked[near])
-    inside = share >= INSIDE_SHARE
-    if not inside.any():
+    surely = viewer.stretches(looked, near, share >= INSIDE_SHARE)
+    seen = surely
+    stays = near & (share < INSIDE_SHARE) & (rests & borne)[looked]
+    if stays.any() and viewer.has_holes:
+        viewer = replace(viewer, stopped=True)
+        share[near], depth[near] = viewer.look(looked[near])
+        seen = surely | viewer.stretches(looked, near, share >= INSIDE_SHARE)
+    if not seen.any():
         return None
-    seen = np.zeros(observation.tick_count, dtype=np.bool_)
-    for first, last in runs(inside):
-        before = int(looked[first - 1]) + 1 if first and near[first - 1] else int(looked[first])
-        begin = viewer.first_inside(before, int(looked[first]))
-        limit = int(looked[last]) if last < len(looked) else observation.tick_count
-        seen[begin : viewer.first_outside(int(looked[last - 1]) + 1, limit)] = True
     return Depths(
         tick=looked[near],
         share=share[near],
         depth=depth[near],
         stretches=runs(seen & both),
+        surely=runs(surely & both),
         at_rest=at_rest,
     )
 
@@ -114,6 +119,25 @@ class _Viewer:
     shape: RigidShape
     points: FloatArray
     weights: FloatArray
+    stopped: bool = False
+    """Whether the holes of the hollow are stopped."""
+
+    @property
+    def has_holes(self) -> bool:
+        """Whether there may be more in the hollow with its holes stopped; the cracks of a fragment are none."""
+        observation = self.observation
+        return hollows_of(observation, self.hollow).has_holes and not observation.has_role(self.hollow.body, "Piece")
+
+    def stretches(self, looked: IntArray, near: BoolArray, inside: BoolArray) -> BoolArray:
+        """Return when it was inside, shape (T,), given whether it was at the ticks that were looked at."""
+        count = self.observation.tick_count
+        seen = np.zeros(count, dtype=np.bool_)
+        for first, last in runs(inside):
+            before = int(looked[first - 1]) + 1 if first and near[first - 1] else int(looked[first])
+            begin = self.first_inside(before, int(looked[first]))
+            limit = int(looked[last]) if last < len(looked) else count
+            seen[begin : self.first_outside(int(looked[last - 1]) + 1, limit)] = True
+        return seen
 
     def look(self, ticks: IntArray) -> tuple[FloatArray, FloatArray]:
         """Return the share inside [1] and the depth of the middle [m] at ticks, each of their shape."""
@@ -125,12 +149,17 @@ class _Viewer:
         local = rotate_back(host[:, None, 3:], position)
         step = hollows.space.step
         # Whole steps, so that bodies that are alike share what is found.
-        clearance = step * int(CLEARANCE * min(solid.half_width for solid in self.shape.solids) / step)
+        half_width = min(solid.half_width for solid in self.shape.solids)
+        clearance = step * int(CLEARANCE * half_width / step)
+        plug = max(hollows.plug, step * math.ceil(half_width / step)) if hollows.plug else 0.0
         share, depth = np.zeros(len(ticks)), np.zeros(len(ticks))
         for direction, first, which, here in _distinct(hollows.which[ticks], local, step):
             pools = hollows.pools(direction, clearance)
-            upward = np.repeat(up[first], len(self.points), axis=0)
-            deep = hollows.space.depth(local[first].reshape(-1, 3), upward, pools, clearance)
+            where, upward = local[first].reshape(-1, 3), np.repeat(up[first], len(self.points), axis=0)
+            deep = hollows.space.depth(where, upward, pools, clearance)
+            if self.stopped:
+                stopped = hollows.stopped(direction, plug)
+                deep = np.maximum(deep, hollows.space.depth(where, upward, stopped, 0.0))
             deep = deep.reshape(len(first), -1)
             share[here] = ((deep > 0) @ self.weights)[which]
             depth[here] = (deep @ self.weights)[which]

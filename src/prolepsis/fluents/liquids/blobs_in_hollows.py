@@ -42,7 +42,7 @@ def _within(observation: Observation, shape: RigidShape, blobs: list[int]) -> di
         near = np.flatnonzero(np.all((local > low) & (local < high), axis=1) & shape.during)
         if not len(near):
             continue
-        space = hollows_of(observation, shape).space
+        space = hollows_of(observation, shape).whole
         solids = bounded(observation.log.things[blob].shape)
         least = min((solid.half_width for solid in solids), default=0.0)
         plug = max(PLUG, space.step * int(CLEARANCE * least / space.step))

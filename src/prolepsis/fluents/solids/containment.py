@@ -135,22 +135,32 @@ def _may_be_content(observation: Observation, shape: RigidShape) -> bool:
 
 
 def _borne(observation: Observation, container: int, inside: dict[int, list[Depths]]) -> list[Content]:
-    """Return what of all that is inside is also borne by the container or its contents, or at rest in it."""
+    """Return what of all that is inside is also borne by the container or its contents, or at rest in it.
+
+    Above a hole it must be both, and what something else bears there has left.
+    """
     count = observation.tick_count
     masks = {unit: mask_of(union(d.stretches for d in each), count) for unit, each in inside.items()}
-    anchored: dict[int, BoolArray] = {}
-    for unit, each in inside.items():
-        mask = mask_of(union(d.at_rest for d in each), count)
-        borne = observation.of(support_runs).get((container, unit))
-        anchored[unit] = mask if borne is None else mask | mask_of(borne, count)
-    borne_by = [(pair, s) for pair, s in observation.of(support_runs).items() if set(pair) <= set(inside)]
+    surely = {unit: mask_of(union(d.surely for d in each), count) for unit, each in inside.items()}
+    over_hole = {unit: masks[unit] & ~surely[unit] for unit in inside}
+    rests = {unit: mask_of(union(d.at_rest for d in each), count) for unit, each in inside.items()}
+    borne_by = [
+        (below, above, mask_of(stretches, count))
+        for (below, above), stretches in observation.of(support_runs).items()
+        if above in inside and (below == container or below in inside)
+    ]
+    kept = {unit: rests[unit] & ~over_hole[unit] for unit in inside}
     changed = True
     while changed:
         changed = False
-        for (below, above), stretches in borne_by:
-            more = anchored[above] | (anchored[below] & masks[below] & mask_of(stretches, count))
-            if (more & ~anchored[above]).any():
-                anchored[above], changed = more, True
+        for below, above, bears in borne_by:
+            more = bears if below == container else bears & kept[below] & masks[below]
+            if (more & ~kept[above]).any():
+                kept[above], changed = kept[above] | more, True
+    anchored = {unit: kept[unit] & (rests[unit] | ~over_hole[unit]) for unit in inside}
+    for unit in inside:
+        if over_hole[unit].any():
+            masks[unit] &= ~over_hole[unit] | kept[unit] | ~_borne_at_all(observation, unit)
     gap, least = ticks_of(CONTAINED_GAP, observation.dt), ticks_of(CONTAINED_LEAST, observation.dt)
     found: list[Content] = []
     for unit, each in inside.items():
@@ -160,6 +170,12 @@ def _borne(observation: Observation, container: int, inside: dict[int, list[Dept
         if len(stretches):
             found.append(Content(container=container, content=unit, stretches=stretches, depths=tuple(each)))
     return found
+
+
+def _borne_at_all(observation: Observation, unit: int) -> BoolArray:
+    """Return when anything bears a unit, shape (T,)."""
+    known = observation.of(supporters).get(unit, [])
+    return mask_of(union(stretches for _, stretches in known), observation.tick_count)
 
 
 def _from_first(run: list[int], anchored: BoolArray) -> tuple[int, int]:
