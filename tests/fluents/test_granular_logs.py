@@ -127,6 +127,23 @@ def test_beads_beside_the_slot_in_a_cup_stay_in_it_and_those_above_the_slot_are_
     assert {"contains(sieve,beads)", "spilled(beads)"} <= at_end(timeline)
 
 
+def test_a_stuff_of_which_exactly_half_is_knocked_off_a_table_moves_and_falls() -> None:
+    table = '<body name="table" pos="0 0 .3"><geom type="box" size=".1 .1 .01"/></body>'
+    # Of twelve masses that are alike, six shares sum up to a little less than a half.
+    kept = [f"-.05 {0.016 * k - 0.04} .316" for k in range(6)]
+    knocked = [f".09 {0.016 * k - 0.04} .316" for k in range(6)]
+    beads = "".join(bead(k, where) for k, where in enumerate([*kept, *knocked]))
+
+    def knock(model: Any, data: Any) -> None:
+        if abs(data.time - 0.2) < STEP / 2:
+            data.qvel[6 * 6 :: 6] = 0.4
+
+    timeline = watch(world(FLOOR + table + beads), 0.8, knock, stuffs=BEADS)
+    moving, falling = the(timeline, "moving(beads)"), the(timeline, "falling(beads)")
+    assert 0.19 < moving.start < 0.22 < falling.start < 0.4
+    assert moving.evidence["fraction"] == falling.evidence["fraction"] == pytest.approx(0.5)
+
+
 def test_one_bead_beside_the_cup_is_noticed() -> None:
     beads = "".join(bead(k, in_cup(k) if k < 11 else on_floor(k)) for k in range(12))
     timeline = watch(world(FLOOR + free("cup", "0 0 .0001", CUP) + beads), 0.4, stuffs=BEADS)

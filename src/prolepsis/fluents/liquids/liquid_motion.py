@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from prolepsis.fluents.evidence import ROUNDING
 from prolepsis.fluents.intervals import debounce, ticks_of
 from prolepsis.fluents.liquids.particle_locations import ParticleLocations, particle_locations
 from prolepsis.fluents.liquids.stuff import FLOWING_SPEED, MOST, STUFF_GAP, STUFF_LEAST
@@ -68,6 +69,6 @@ def _displacements(observation: Observation) -> tuple[FloatArray, FloatArray]:
 def _mostly(observation: Observation, seen: ParticleLocations, type: str, mask: BoolArray) -> Iterator[Fact]:
     for stuff in seen.stuffs():
         fraction = seen.at_ticks(seen.fraction(mask, stuff), observation.tick_count)
-        for start, end in debounce(fraction >= MOST, observation.dt, gap=STUFF_GAP, least=STUFF_LEAST):
+        for start, end in debounce(fraction >= MOST - ROUNDING, observation.dt, gap=STUFF_GAP, least=STUFF_LEAST):
             evidence = {"fraction": float(fraction[start:end].max())}
             yield observation.fact("event", type, (observation.unit_names[stuff],), (start, end), evidence)

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Mapping
 
 import numpy as np
 
+from prolepsis.fluents.evidence import ROUNDING
 from prolepsis.fluents.intervals import debounce, mask_of, union
 from prolepsis.fluents.kinematics import surface_speeds
 from prolepsis.fluents.liquids.blobs_in_hollows import blobs_in_hollows
@@ -167,14 +168,14 @@ def _share(observation: Observation, shares: Mapping[int, float], masks: BlobMas
 
 
 def _noticed(observation: Observation, fraction: FloatArray) -> IntArray:
-    # The sum of all shares may fall short of a fraction by rounding.
-    return debounce(fraction >= NOTICEABLE_FRACTION - 1e-9, observation.dt, gap=STUFF_GAP, least=STUFF_LEAST)
+    # The sum of all shares may fall short of a fraction by rounding, here and below.
+    return debounce(fraction >= NOTICEABLE_FRACTION - ROUNDING, observation.dt, gap=STUFF_GAP, least=STUFF_LEAST)
 
 
 def _mostly(observation: Observation, type: str, find: Callable[[Observation], dict[int, IntArray]]) -> Iterator[Fact]:
     masks = {unit: mask_of(stretches, observation.tick_count) for unit, stretches in observation.of(find).items()}
     for stuff, shares in observation.of(blob_shares).items():
         fraction = _share(observation, shares, masks)
-        for start, end in debounce(fraction >= MOST, observation.dt, gap=STUFF_GAP, least=STUFF_LEAST):
+        for start, end in debounce(fraction >= MOST - ROUNDING, observation.dt, gap=STUFF_GAP, least=STUFF_LEAST):
             evidence = {"fraction": float(fraction[start:end].max())}
             yield observation.fact("event", type, (observation.log.things[stuff].name,), (start, end), evidence)
