@@ -199,4 +199,5 @@ def _facts(
     shown = {name: seen.at_ticks(values, observation.tick_count) for name, values in series.items()}
     for start, end in stretches:
         evidence: Evidence = {name: float(values[start:end].max()) for name, values in shown.items()}
+        evidence["fraction_at_end"] = float(shown["fraction"][end - 1])
         yield observation.fact("fluent", type, args, (start, end), evidence)

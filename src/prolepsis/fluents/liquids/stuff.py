@@ -16,7 +16,7 @@ from prolepsis.fluents.liquids.blobs_in_hollows import blobs_in_hollows
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event, fluent
 from prolepsis.fluents.solids.contact import FLICKER, is_stuff
-from prolepsis.fluents.solids.containment import NOTICEABLE_FRACTION, blob_shares, contents
+from prolepsis.fluents.solids.containment import NOTICEABLE_FRACTION, blob_shares, contents, evidence_of_share
 from prolepsis.fluents.solids.fall import falling_runs
 from prolepsis.fluents.solids.motion import moving_runs
 from prolepsis.fluents.solids.support import support_runs
@@ -46,8 +46,7 @@ def spilled(observation: Observation) -> Iterator[Fact]:
         fraction = _share(observation, shares, lying)
         mass = _mass(observation, stuff, shares)
         for start, end in _noticed(observation, fraction):
-            greatest = float(fraction[start:end].max())
-            evidence = {"fraction": greatest, "mass": greatest * mass}
+            evidence = evidence_of_share(fraction[start:end], mass)
             yield observation.fact("fluent", "spilled", (observation.log.things[stuff].name,), (start, end), evidence)
 
 
@@ -78,8 +77,7 @@ def supports_stuff(observation: Observation) -> Iterator[Fact]:
             fraction = _share(observation, shares, _piled(observation, rows, {below}))
             args = observation.unit_names[below], observation.log.things[stuff].name
             for start, end in _noticed(observation, fraction):
-                greatest = float(fraction[start:end].max())
-                evidence = {"fraction": greatest, "mass": greatest * mass}
+                evidence = evidence_of_share(fraction[start:end], mass)
                 yield observation.fact("fluent", "supports", args, (start, end), evidence)
 
 

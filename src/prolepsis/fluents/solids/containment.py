@@ -63,7 +63,8 @@ def _stuffs(observation: Observation) -> Iterator[Fact]:
         for body in sorted(set(within[within >= 0].tolist()) - {stuff}):
             name = observation.unit_names[observation.unit[body]]
             for stretch in runs(within == body):
-                yield observation.fact("fluent", "contains", (name, things[stuff].name), stretch, {"fraction": 1.0})
+                evidence = {"fraction": 1.0, "fraction_at_end": 1.0}
+                yield observation.fact("fluent", "contains", (name, things[stuff].name), stretch, evidence)
         shares: dict[int, FloatArray] = {}
         for item in observation.of(contents):
             if item.content in blobs.get(stuff, {}):
@@ -75,10 +76,15 @@ def _stuffs(observation: Observation) -> Iterator[Fact]:
             share = np.minimum(share, 1.0)
             enough = share >= NOTICEABLE_FRACTION - 1e-9
             for start, end in debounce(enough, observation.dt, gap=CONTAINED_GAP, least=CONTAINED_LEAST):
-                greatest = float(share[start:end].max())
-                evidence = {"fraction": greatest, "mass": greatest * mass}
+                evidence = evidence_of_share(share[start:end], mass)
                 args = observation.unit_names[container], things[stuff].name
                 yield observation.fact("fluent", "contains", args, (start, end), evidence)
+
+
+def evidence_of_share(share: FloatArray, mass: float) -> dict[str, float]:
+    """Return the evidence of a fact about some share of a stuff [1], shape (T,), that weighs so much in all [kg]."""
+    greatest = float(share.max())
+    return {"fraction": greatest, "fraction_at_end": float(share[-1]), "mass": greatest * mass}
 
 
 def blob_shares(observation: Observation) -> dict[int, dict[int, float]]:
