@@ -151,6 +151,9 @@ def test_like_bodies_become_parts_of_a_stuff_that_is_no_body() -> None:
 @pytest.mark.parametrize(
     ("stuffs", "message"),
     [
+        (["bead*"], r"stuffs: \['bead\*'\]; needed: a name and a pattern each"),
+        ({"beads": None}, r"stuffs: \('beads', None\); needed: a name and a pattern, texts"),
+        ({"beads": "*" * 5000}, r"needed: a name and a pattern, texts of 1 to 100"),
         ({"beads": "beed*"}, r"stuffs: beads: no thing named 'beed\*'; did you mean 'bead[12]'"),
         ({"beads": "Bead*"}, "no thing named"),
         ({"fingers": "hand/*"}, "no thing named 'hand/"),
@@ -158,7 +161,7 @@ def test_like_bodies_become_parts_of_a_stuff_that_is_no_body() -> None:
         ({"beads": "*"}, r"floor matches '\*', but is fixed; a stuff consists of what moves freely"),
         ({"beads": "[bh]*"}, "hand matches .*, but is moved by actuators"),
         ({"pea": "bead*"}, "'pea' is the name of a thing already"),
-        ({"": "bead*"}, "'' is the name of a thing already, or none"),
+        ({"": "bead*"}, r"stuffs: \('', 'bead\*'\); needed: a name and a pattern, texts"),
     ],
 )
 def test_a_stuff_that_cannot_be_one_is_refused(stuffs: dict[str, str], message: str) -> None:

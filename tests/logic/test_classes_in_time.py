@@ -16,6 +16,14 @@ SITUATION = """@prefix : <https://w3id.org/prolepsis#> .
   owl:equivalentClass [ a owl:Class ; owl:intersectionOf ( :Egg :WetThing ) ] .
 :Slippery a owl:Class ; rdfs:comment "What slips." .
 :WetThing rdfs:subClassOf :Slippery .
+:Ruined a owl:Class ; rdfs:comment "What is broken." ;
+  owl:equivalentClass [ a owl:Restriction ; owl:onProperty :broken ; owl:hasValue true ] .
+:keeps a owl:ObjectProperty ; rdfs:subPropertyOf :carries ; rdfs:comment "Has in it." .
+:carries a owl:ObjectProperty ; rdfs:subPropertyOf :keeps ; rdfs:comment "Has in it." .
+:contains rdfs:subPropertyOf :keeps .
+:Keeper a owl:Class ; rdfs:comment "A cup that has something in it." ;
+  owl:equivalentClass [ a owl:Class ; owl:intersectionOf ( :Cup
+    [ a owl:Restriction ; owl:onProperty :carries ; owl:someValuesFrom owl:Thing ] ) ] .
 :table1 a :Table . :egg1 a :Egg ; :on :table1 . :cup1 a :Cup ; :on :table1 ; :x 0.2 .
 :liq1 a :Water . :hand1 a :Gripper ; :wet true ; :z 1.0 . :hand2 a :Gripper ; :wet true ; :z 1.5 .
 """
@@ -73,6 +81,14 @@ def test_a_container_of_liquid_is_one_while_a_liquid_is_in_it(run: Timeline) -> 
 def test_what_was_told_ends_where_a_fluent_ends_and_stays_where_none_tells_of_it(run: Timeline) -> None:
     assert when(run, "hand1", "WetGripper") == when(run, "hand1", "WetThing") == ["0.0-0.8"]
     assert when(run, "hand2", "WetGripper") == ["0.0-2.0"]
+
+
+def test_a_class_of_one_s_own_that_nothing_else_names_is_known(run: Timeline) -> None:
+    assert when(run, "egg1", "Ruined") == ["0.5-2.0"] and not run.ask("instance_of(cup1, 'Ruined')")
+
+
+def test_a_relation_to_anything_is_met_by_what_is_told_below_it(run: Timeline) -> None:
+    assert when(run, "cup1", "Keeper") == ["0.2-0.9", "1.2-1.4"]
 
 
 def test_classes_above_come_and_go_with_it(run: Timeline) -> None:

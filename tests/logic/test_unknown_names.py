@@ -231,6 +231,15 @@ def test_an_interval_is_not_compared_as_if_it_were_a_number(session: Session, go
         session.ask(RUN1, goal)
 
 
+@pytest.mark.parametrize("time", ["abc", "'0.9'", "a-b", "0.9-0.1", "[0, 1]", "1+1"])
+@pytest.mark.parametrize(
+    "goal", ["holds(broken(egg1), {})", "evidence(broken(egg1), {}, force, V)", "instance_of(egg1, 'Egg', {})"]
+)
+def test_what_is_no_time_is_not_denied(session: Session, goal: str, time: str) -> None:
+    with pytest.raises(GoalError, match="not an interval: .*; an interval is Start-End"):
+        session.ask(RUN1, goal.format(time))
+
+
 def test_an_instant_and_the_ends_of_an_interval_are_compared(session: Session) -> None:
     assert session.ask(RUN1, "T = 1.0, holds(broken(egg1), T), T > 0.5")
     assert session.ask(RUN1, "member(T, [0.1, 1.0]), holds(broken(egg1), T), T > 0.5") == [{"T": 1.0}]

@@ -10,7 +10,7 @@ from prolepsis.engine.world import compile_world
 from prolepsis.fluents import recognize
 from prolepsis.log.log import FREE
 from prolepsis.log.timeline import Timeline
-from prolepsis.matter.films.wetting import LOOK_TICKS, Wetting
+from prolepsis.matter.films.wetting import DROP, LOOK_TICKS, Wetting
 
 PUDDLE = ":floor a :Floor . :table1 a :Table . :liq1 a :Water ; :on :table1 ; :volume 0.0000005 . "
 OVER_IT = ":sponge1 a :Sponge ; :length 0.06 ; :width 0.06 ; :height 0.02 ; :z 0.713 . "
@@ -106,3 +106,22 @@ def test_a_hand_that_is_told_to_be_wet_is_so_without_any_liquid() -> None:
     timeline = recognize(told)
     assert spans(timeline, "wet", "hand1") == [(0.0, 0.01)] and not spans(timeline, "dirty", "hand1")
     assert timeline.ask("evidence(wet(hand1), _, source, told)")
+
+
+def test_what_a_single_fine_particle_touches_is_not_wet_yet() -> None:
+    state = State.of(compile_world(scene(PUDDLE, particles=200)))
+    (wetting,) = started(state, Wetting)
+    assert state.particles is not None and state.particles.volume[0] < DROP / 10
+    state.particles.position[1:, 2] += 1.0
+    wetting.end_tick(state)
+    assert not state.attribute("table1", "wet")
+    state.particles.position[1:, 2] -= 1.0
+    assert looks(state, wetting)
+
+
+def test_a_part_of_a_shell_is_wet_where_any_of_its_pieces_is() -> None:
+    log = run(":floor a :Floor . :egg1 a :Egg ; :z 0.3 .", duration=0.8)
+    films, first = log.happenings["film"], log.index("eggshell1/piece0")
+    carried = [k for k in films.things["thing"].tolist() if log.carrier[-1, k] == first]
+    assert carried, "some piece of the largest part is wet"
+    assert recognize(log).ask("holds(wet('eggshell1/piece0'), T), ongoing(wet('eggshell1/piece0'))")

@@ -110,6 +110,7 @@ def test_beads_and_a_liquid_share_a_cup() -> None:
         (CUP + ":beads1 a :Granular ; :on :floor .", r"beads1 \(Granular\) consists of nothing; state its bodies"),
         (CUP + SOME, r"beads1 \(Granular\) is nowhere; state what :contains it"),
         (CUP + SOME + ":beads1 :grainCount 4 ; :on :floor .", "has a grainCount of 4, but 3 parts"),
+        (CUP + SOME + ":beads1 :radius 0.02 ; :on :floor .", "beads1 .* is given radius, which its bodies have"),
         (CUP + SOME + ":beads1 :on :floor . :cup1 :contains :beads1 .", "is in several places: cup1, floor"),
         (CUP + ":b a :Granular ; :hasPart :egg1 ; :on :floor . :egg1 a :Egg .", r"egg1 \(Egg\) is no solid body"),
         (CUP + ":b a :Granular ; :hasPart :t ; :on :floor . :t a :Table .", r"t \(Table\) is no solid body"),
@@ -135,3 +136,8 @@ def test_a_query_knows_a_single_bead_of_which_no_fact_tells() -> None:
     assert made.ask("has_part(beads1, 'beads1/bead7'), instance_of('beads1/bead7', 'Bead')")
     assert not made.ask("holds(contacts(cup1, 'beads1/bead7'), T)")
     assert made.ask("holds(contains(C, S), T), instance_of(S, 'Granular')")[0]["C"] == "cup1"
+
+
+def test_a_stuff_that_is_told_to_be_wet_is_so() -> None:
+    told = run(CUP + SOME + ":beads1 :wet true ; :on :floor ; :x 0.3 .", "wait(0.01)", duration=0.01)
+    assert recognize(told).ask("holds(wet(beads1), 0.0), \\+ holds(dirty(beads1), 0.0)")

@@ -9,6 +9,8 @@ from fnmatch import fnmatchcase
 from prolepsis.log.things import Thing
 from prolepsis.terms.errors import InputError, UnknownNameError, brief
 
+LONGEST_NAME = 100
+"""Letters of a stuff's name, and of its pattern."""
 GRAIN_ROLES = frozenset({"Blob"})
 """Roles of what facts name by its stuff."""
 
@@ -24,6 +26,11 @@ def with_stuffs(things: tuple[Thing, ...], stuffs: Mapping[str, str]) -> tuple[T
         UnknownNameError: If a pattern matches nothing that stands for itself.
         InputError: If one matches what does not move freely, or two match the same, or a stuff is called as a thing.
     """
+    if not isinstance(stuffs, Mapping):  # pyright: ignore[reportUnnecessaryIsInstance]
+        raise InputError(f"stuffs: {brief(repr(stuffs))}; needed: a name and a pattern each, as {{'beads': 'bead*'}}")
+    for pair in stuffs.items():
+        if not all(isinstance(each, str) and 0 < len(each) <= LONGEST_NAME for each in pair):  # pyright: ignore[reportUnnecessaryIsInstance]
+            raise InputError(f"stuffs: {brief(repr(pair))}; needed: a name and a pattern, texts of 1 to {LONGEST_NAME}")
     stuff_of: dict[str, str] = {}
     for stuff, pattern in stuffs.items():
         if not stuff or any(thing.name == stuff for thing in things):

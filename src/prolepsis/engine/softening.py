@@ -13,7 +13,7 @@ from prolepsis.log.things import Thing
 
 STIFF, SOFT = 100.0, 10.0
 """Friction over normal impedance [1]. Static friction is regularized: at 1 what is gripped creeps by 2 mm/s, at 100 by
-less than 0.02. While pieces are squeezed the solver diverges at 100, and what is gripped creeps by 0.2."""
+less than 0.05 to 0.2. While pieces are squeezed the solver diverges at 100, and what is gripped creeps more."""
 SQUEEZED = 1.0
 """Normal force of a contact with a piece above which it is squeezed [N]; at rest it is half of that."""
 LINGERING = 0.1

@@ -35,6 +35,13 @@ def read_vocabulary(documents: tuple[Document, ...]) -> Vocabulary:
             _refuse_second_name(document, iri, known)
             # The file of correspondences declares properties anew.
             properties[entry.name] = entry if known is None else _more_aligned(known, entry)
+    for document in documents:
+        # A file may say more of a property that another one declares.
+        for iri, above in sorted(document.graph.subject_objects(RDFS.subPropertyOf), key=str):
+            known = properties.get(local_name(iri)) if isinstance(iri, URIRef) else None
+            if isinstance(iri, URIRef) and isinstance(above, URIRef) and known is not None and known.iri == str(iri):
+                parents = tuple(sorted({*known.parents, local_name(above)}))
+                properties[known.name] = replace(known, parents=parents)
     classes: dict[str, ClassEntry] = {}
     for document in documents:
         for iri in _named(document, OWL.Class):
@@ -166,7 +173,7 @@ def _conditions(document: Document, iri: URIRef) -> tuple[tuple[str, str], ...]:
         elif isinstance(on, URIRef) and isinstance(truth, Literal) and truth.value is True:
             found.append((local_name(on), "true"))
         elif isinstance(on, URIRef) and isinstance(some, URIRef) and not str(some).startswith(str(XSD)):
-            found.append((local_name(on), local_name(some)))
+            found.append((local_name(on), "" if some == OWL.Thing else local_name(some)))
         else:
             return ()
     return tuple(sorted(found))

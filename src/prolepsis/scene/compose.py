@@ -62,7 +62,11 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
     roles = partial(_roles, kb, ROLES.union(*(kind.roles for kind in kinds)))
     thing_of = partial(_thing, kb, roles, begins)
     individuals = Individuals(
-        kb=kb, roles=roles, bodiless=lambda name: thing_of(name, None), solid=lambda name: thing_of(name, ())
+        kb=kb,
+        roles=roles,
+        bodiless=lambda name: thing_of(name, None),
+        solid=lambda name: thing_of(name, ()),
+        attributes=partial(_attributes, kb, begins),
     )
     owners = {name: _owner(kb, name, kinds) for name in wholes}
     below = _hosts(kb, wholes)
@@ -203,6 +207,11 @@ def _supporters_first(names: list[str], below: Mapping[str, Collection[str]]) ->
     return ordered
 
 
+def _attributes(kb: KnowledgeBase, begins: Mapping[str, str], name: str) -> dict[str, float]:
+    """Return the attributes of an individual at the start, where ``begins`` is the class of those that have each."""
+    return {attribute: 1.0 for attribute, cls in begins.items() if kb.is_a(name, cls)}
+
+
 def _thing(
     kb: KnowledgeBase, roles: Roles, begins: Mapping[str, str], name: str, later: Collection[str] | None
 ) -> Thing:
@@ -225,7 +234,7 @@ def _thing(
     shape = str(known["shape"].value)
     quantities = {p: float(k.value) for p, k in known.items() if isinstance(k.value, float)}
     quantities |= {feature: 1.0 for feature in FEATURES if feature in known and known[feature].value == "true"}
-    quantities |= {attribute: 1.0 for attribute, cls in begins.items() if kb.is_a(name, cls)}
+    quantities |= _attributes(kb, begins, name)
     fixed = kb.is_a(name, "Furniture")
     built = Shape() if later is None or shape in later else _built(kb, name, shape, quantities)
     if not fixed and built.geoms and "mass" not in quantities:

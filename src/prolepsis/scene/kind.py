@@ -35,6 +35,8 @@ class Individuals:
     """Returns an individual as a thing at its stated place that has no shape yet."""
     solid: Callable[[str], Thing]
     """Returns an individual as a thing at its stated place with its shape."""
+    attributes: Callable[[str], Mapping[str, float]]
+    """Returns the attributes that an individual has at the start, each 1."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -54,13 +54,13 @@ def unobstructed(state: Running, index: int, points: FloatArray) -> BoolArray:
     slope = [distance_to(state, index, points + NUDGE * axis) - distance for axis in np.eye(3)]
     out = np.stack(slope, axis=1) / NUDGE
     out /= np.maximum(np.linalg.norm(out, axis=1, keepdims=True), 1e-9)
-    way = (
+    path = (
         points[:, None] - np.linspace(0.0, 1.0, SAMPLES)[:, None] * (np.maximum(distance, 0.0)[:, None] * out)[:, None]
     )
     for other in solids_of(state):
         if other != index:
             shape, pose = state.scene.things[other].shape, state.pose(state.scene.things[other].name)
-            local = (way - pose[:3]) @ matrix(pose[3:])
+            local = (path - pose[:3]) @ matrix(pose[3:])
             low, high = _box(shape)
             beside = np.flatnonzero(((local > low) & (local < high)).all(axis=2).any(axis=1) & free)
             if len(beside):

@@ -16,13 +16,13 @@ from prolepsis.log.timeline import Evidence, Fact
 
 @fluent("wet", "o")
 def wet(observation: Observation) -> Iterator[Fact]:
-    """The thing's surface is wet, as told or since a liquid touched it, until something absorbent has wiped it."""
+    """The thing's surface is wet: as told, or from when a drop touched it until something absorbent has wiped it."""
     yield from _filmed(observation, "wet")
 
 
 @fluent("dirty", "o")
 def dirty(observation: Observation) -> Iterator[Fact]:
-    """Stuff sticks to the thing, as told or since a liquid touched it, until something absorbent has wiped it."""
+    """Stuff sticks to the thing: as told, or from when a drop touched it until something absorbent has wiped it."""
     yield from _filmed(observation, "dirty")
 
 
@@ -30,18 +30,28 @@ def _filmed(observation: Observation, attribute: str) -> Iterator[Fact]:
     """Yield when a surface of each unit has a film."""
     things = observation.log.things
     told = {i for i, thing in enumerate(things) if thing.quantities.get(attribute)}
-    films = observation.of(film_masks)
+    stuffs_told = {things[i].name for i in told}
+    told |= {i for i, thing in enumerate(things) if "Blob" in thing.roles and thing.whole in stuffs_told}
+    films = observation.of(films_of_units)
     for unit in observation.units:
-        mask, stuffs = np.zeros(observation.tick_count, dtype=np.bool_), dict[str, None]()
-        for thing in observation.bodies(unit):
-            if thing in films:
-                mask |= films[thing][0]
-                stuffs |= dict.fromkeys(films[thing][1])
+        mask, stuffs = films.get(unit, (np.zeros(observation.tick_count, dtype=np.bool_), ()))
         known = unit in told or not told.isdisjoint(observation.bodies(unit))
         mask = (mask | known) & observation.exists(unit)
-        evidence: Evidence = {"source": "told"} if known else {"by": next(iter(stuffs), "")}
+        evidence: Evidence = {"source": "told"} if known else {"by": " and ".join(dict.fromkeys(stuffs))}
         for stretch in runs(mask):
             yield observation.fact("fluent", attribute, (observation.unit_names[unit],), stretch, evidence)
+
+
+def films_of_units(observation: Observation) -> dict[int, tuple[BoolArray, tuple[str, ...]]]:
+    """Return when each unit has a film on what its body carries, shape (T,), and with what."""
+    found: dict[int, tuple[BoolArray, tuple[str, ...]]] = {}
+    for thing, (mask, stuffs) in observation.of(film_masks).items():
+        carrier = observation.log.carrier[:, thing]
+        for body in sorted({*carrier[mask].tolist()} - {-1}):
+            unit = int(observation.unit[body])
+            known, others = found.get(unit, (np.zeros(observation.tick_count, dtype=np.bool_), ()))
+            found[unit] = known | (mask & (carrier == body)), (*others, *stuffs)
+    return found
 
 
 def film_masks(observation: Observation) -> dict[int, tuple[BoolArray, tuple[str, ...]]]:

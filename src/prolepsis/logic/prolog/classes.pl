@@ -151,6 +151,7 @@ asked_spans(Property, Filler, Run, _, Individual, Spans) =>
             Found),
     joined(Found, Spans).
 
+is_one(_, _, '') :- !.               % anything
 is_one(Run, Individual, Class) :-
     Run:instance(Individual, Told),
     at_or_above(Run, Told, Class),
@@ -166,10 +167,20 @@ met(Run, Property, Individual, Other, Start, End) :-
     ;   Term =.. [_, Individual, Other]
     ).
 
-at_or_below(_, Property, Property).
 at_or_below(Run, Property, Below) :-
-    subproperty(Run, Near, Property),
-    at_or_below(Run, Near, Below).
+    below([Property], [Property], Run, All),
+    member(Below, All).
+
+%   below(+Queue, +Seen, +Run, -All): the properties below those in Queue, and all that were Seen, each once.
+
+below([], Seen, _, Seen).
+below([Property|Queue], Seen, Run, All) :-
+    findall(Near, subproperty(Run, Near, Property), Nears0),
+    sort(Nears0, Nears),
+    subtract(Nears, Seen, New),
+    append(Seen, New, Seen1),
+    append(Queue, New, Queue1),
+    below(Queue1, Seen1, Run, All).
 
 %   As the situation says, and what only the built-in ontology does.
 

@@ -15,6 +15,7 @@
 :- use_module(classes).
 :- use_module(runs).
 :- use_module(ticks).
+:- use_module(timeline, [must_be_time/1]).
 :- use_module(vocabulary).
 
 %!  instance_of(?Individual, ?Class) is nondet.
@@ -39,6 +40,7 @@ instance_of(Individual, Class, Instant), number(Instant) =>
     Start =< Time,
     Time < End.
 instance_of(Individual, Class, Time) =>
+    must_be_time(Time),
     current_run(Run),
     Time = Start-End,
     snapped(Run, Start, S),

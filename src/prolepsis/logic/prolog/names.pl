@@ -259,6 +259,7 @@ known_type_spelled(Kind, Name) :-
 class_of(Run, Name) :- Run:instance(_, Name).
 class_of(Run, Name) :- Run:subclass(Name, _).
 class_of(Run, Name) :- Run:subclass(_, Name).
+class_of(Run, Name) :- Run:definition(Name, _, _).
 
 %   individual(+Run, ?Name)
 

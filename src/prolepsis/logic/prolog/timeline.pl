@@ -20,6 +20,7 @@
             matching/5,                 % +Kind, ?Term, ?Interval, ?Type, ?Object
             args_of/3,                  % ?Term, ?Interval, ?Arguments
             same_type/2,                % +Type, +Type
+            must_be_time/1,             % ?Time
             interval/3                  % ?Interval, -Start, -End
           ]).
 :- use_module(library(error)).
@@ -68,10 +69,26 @@ found(Time, Kind, Term, _, _, Run), var(Time), nonvar(Term) =>
     Time = Start-End,
     row(Kind, Term, Start, End, _, Run).
 found(Time, Kind, Term, Type, Object, Run) =>
+    must_be_time(Time),
     Time = Start-End,
     snapped(Run, Start, S),
     snapped(Run, End, E),
     narrowed(Term, Type, Object, Kind, Run, S, E, _).
+
+%!  must_be_time(?Time) is det.
+%
+%   Check that Time, which is no number, may be an interval: Start-End, each of them a number or not known yet.
+
+must_be_time(Time) :-
+    (   var(Time)
+    ->  true
+    ;   Time = Start-End,
+        ( var(Start) ; number(Start) ),
+        ( var(End) ; number(End) ),
+        \+ ( number(Start), number(End), Start >= End )
+    ->  true
+    ;   throw(error(type_error(interval, Time), _))
+    ).
 
 narrowed(Term, Type, Object, Kind, Run, S, E, Id), var(Term), atom(Object) =>
     ids_with(Object, Kind, Run, Ids),
@@ -235,6 +252,7 @@ row_at(Instant, Kind, Term, Id, Run), number(Instant) =>
     Start =< Time,
     Time < End.
 row_at(Time, Kind, Term, Id, Run) =>
+    must_be_time(Time),
     Time = Start-End,
     snapped(Run, Start, S),
     snapped(Run, End, E),

@@ -22,6 +22,8 @@ LOOK_TICKS = 50
 """Surfaces are looked at every so many ticks, and in the first one."""
 TOUCH_REACH = 0.75
 """Distance of a particle's centre from a surface that it wets [spacings]; at rest on it, it is a half."""
+DROP = 5.0e-8
+"""Least volume that wets a surface when it touches it at once [m^3]: a drop of water, twenty to the millilitre."""
 NOTICEABLE = 0.02
 """Share of the greatest area of a film [1] that is left when the surface counts as dry."""
 _BITS = 21
@@ -64,7 +66,7 @@ class Wetting(Controller):
             near = near[unobstructed(state, index, positions[near])]
             if index in self._wet:
                 self._wipe(state, index, particles.spacing, positions[near])
-            elif len(near):
+            elif len(near) and float(particles.volume[free[near]].sum()) >= DROP:
                 cells = self._cells(state, index, particles.spacing, positions[near])
                 self._wetten(state, index, int(particles.stuff[free[near[0]]]), cells)
 

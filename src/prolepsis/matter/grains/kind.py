@@ -13,6 +13,8 @@ from prolepsis.scene.kind import Draft, Individuals, Kind
 from prolepsis.scene.scene import Pool
 from prolepsis.terms.errors import KnowledgeError, brief_list
 
+OF_A_STUFF = frozenset({"grainCount", "mass", "x", "y"})
+"""Quantities that may be stated of a granular stuff itself."""
 BLOB = frozenset({"Blob"})
 """Role of what facts name by its stuff."""
 
@@ -53,6 +55,7 @@ class Grains(Kind):
                 raise KnowledgeError(
                     f"{where} has a grainCount of {count:g}, but {len(parts)} parts; allowed: either a count, or parts"
                 )
+            _refuse_quantities(kb, name, where)
             for part in parts:
                 _refuse_unlike(kb, part, f"{where}: its part {part} ({kb.kind(part)})", kinds)
                 placement_of(kb, part)
@@ -97,6 +100,7 @@ def _stuff(individuals: Individuals, name: str) -> Thing:
     """Return a stuff as a thing without a body."""
     kb = individuals.kb
     quantities = {p: float(k.value) for p, k in kb.quantities(name).items() if isinstance(k.value, float)}
+    quantities |= individuals.attributes(name)
     return Thing(name=name, kind=kb.kind(name), mount=WITHIN, roles=individuals.roles(name), quantities=quantities)
 
 
@@ -121,6 +125,17 @@ def placement_of(kb: KnowledgeBase, part: str) -> Placement:
     raise KnowledgeError(
         f"{where} is nowhere; state what :contains it, what it is :on, or where each of its bodies is, as {part}"
     )
+
+
+def _refuse_quantities(kb: KnowledgeBase, name: str, where: str) -> None:
+    """Refuse what is stated of a stuff as if it were a body: it would come to nothing."""
+    properties = kb.vocabulary.properties
+    stated = {p for who, p in kb.situation.said if who == name and p in properties}
+    lost = sorted(p for p in stated if properties[p].kind == "quantity" and p not in OF_A_STUFF)
+    if lost:
+        raise KnowledgeError(
+            f"{where} is given {brief_list(lost)}, which its bodies have; state that of their class, or of each"
+        )
 
 
 def _refuse_unlike(kb: KnowledgeBase, part: str, where: str, kinds: Sequence[Kind]) -> None:

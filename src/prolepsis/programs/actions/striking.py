@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -40,6 +41,8 @@ RATE = 16.0
 """Rate at which an error of the force fades [1/s]."""
 GIVEN_WAY = 0.2
 """What resists by this share of the whole force less than it should has given way [1]."""
+BLOW_TIME = 0.02
+"""A force counts as its mean over this time [s]: what touches down gives a blow of some milliseconds."""
 SPEED_WITHIN, PUSH_WITHIN = 0.1, 0.05
 """A blow has its speed, a push its force within this share of it [1]."""
 RAMP_TIME, HOLD_TIME = 1.0, 0.5
@@ -131,7 +134,7 @@ def press(
     above = (offset[0], offset[1], offset[2] + APPROACH_HEIGHT)
     sense = yield from move_held(hand, object, sense, above, rotation)
     sense = yield from stay(0.2, sense)
-    sense = yield from push_down(hand, sense, force, duration)
+    sense = yield from push_down(hand, sense, force, duration, lambda now: now.pressing(object.name, against.name))
     return (yield from travel(hand, sense, (0.0, 0.0, BACK), 2.0, BACK_SPEED))
 
 
@@ -151,19 +154,23 @@ def bring(scene: Scene, sense: Sense, *, hand: Thing, target: Thing, height: flo
     return (yield from travel_over(hand, sense, displacement, BRING_ACCELERATION, BRING_SPEED))
 
 
-def push_down(hand: Thing, sense: Sense, force: float, duration: float) -> Behaviour:
+def push_down(
+    hand: Thing, sense: Sense, force: float, duration: float, pressing: Callable[[Sense], float] | None = None
+) -> Behaviour:
     """Go down until something resists, raise the force to ``force`` [N], and keep it for ``duration`` [s].
 
-    The force is told by the joints' efforts, against what they were before.
+    The force is steered by the joints' efforts, against what they were before; whether it was reached is told by what
+    is ``pressing`` [N], if that is given: a finger may come to bear the rest.
     """
     start = sense.hands[hand.name]
     begin, resting = sense.time, start.load()[2]
-    depth, elapsed, touched, greatest, creeping = 0.0, 0.0, False, 0.0, 0.0
+    depth, elapsed, touched, greatest, creeping, borne = 0.0, 0.0, False, 0.0, 0.0, 0.0
     while elapsed < RAMP_TIME + duration and depth < TOO_DEEP:
         felt, since = resting - sense.hands[hand.name].load()[2], sense.time - begin
         touched = touched or (felt > TOUCH and since > 2 * EASING)
         if touched:
-            greatest = max(greatest, felt)
+            borne += ((felt if pressing is None else pressing(sense)) - borne) * TICK / BLOW_TIME
+            greatest = max(greatest, borne)
             elapsed += TICK
             wanted = force * min(elapsed / RAMP_TIME, 1.0)
             growing = force / RAMP_TIME / start.stiffness if elapsed < RAMP_TIME else 0.0
