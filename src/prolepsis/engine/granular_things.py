@@ -33,8 +33,8 @@ def with_stuffs(things: tuple[Thing, ...], stuffs: Mapping[str, str]) -> tuple[T
             raise InputError(f"stuffs: {brief(repr(pair))}; needed: a name and a pattern, texts of 1 to {LONGEST_NAME}")
     stuff_of: dict[str, str] = {}
     for stuff, pattern in stuffs.items():
-        if not stuff or any(thing.name == stuff for thing in things):
-            raise InputError(f"stuffs: {brief(repr(stuff))} is the name of a thing already, or none; take another one")
+        if any(thing.name == stuff for thing in things):
+            raise InputError(f"stuffs: {brief(repr(stuff))} is the name of a thing already; take another one")
         for thing in _matched(things, stuff, pattern):
             other = stuff_of.setdefault(thing.name, stuff)
             if other != stuff:
