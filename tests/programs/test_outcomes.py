@@ -128,6 +128,22 @@ def test_what_is_lost_meanwhile_is_dropped_and_not_held_after_that(move: str) ->
     assert ends == ["done", "done", "dropped", "not_held"]
 
 
+POST = (
+    ":floor a :Floor . :table1 a :Table . :block1 a :Block ; :on :table1 ; :length 0.04 ; :width 0.04 ; :height 0.3 ; "
+    ':friction 0.7 ; :mass "200 g" . :hand1 a :Gripper ; :z 0.85 ; :opening 0.05 .'
+)
+"""A post that stands on a table, taller than it is lifted: the pads press on it wherever it slides to."""
+
+
+@pytest.mark.parametrize(("share", "lifting", "pressing"), [(0.8, "dropped", "not_held"), (4.0, "done", "done")])
+def test_what_slides_through_the_pads_is_dropped_and_not_held(share: float, lifting: str, pressing: str) -> None:
+    force = share * 0.2 * (9.81 + 1.0) / (2 * 0.7)
+    log = run(POST, f"sequence([grasp(hand1, block1, {force!r}), lift(hand1, 0.08), press(hand1, block1, table1, 3)])")
+    (_, grasped, _), (_, lifted, _), (_, pressed, reason) = ended(log)
+    assert (grasped, lifted, pressed) == ("done", lifting, pressing)
+    assert ("slipped" in reason) == (pressing == "not_held")
+
+
 def test_a_wiping_over_nothing_has_not_its_force() -> None:
     situation = BLOCK + ":height 0.04 ." + " :hand1 a :Gripper ; :pitch 90.0 ; :z 0.742 ; :opening 0.05 ."
     log = run(

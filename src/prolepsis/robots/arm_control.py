@@ -170,6 +170,7 @@ class ArmHand:
             load=self._load,
             velocity=self._velocity,
             pad_force=self.gripper.pad_force,
+            between=self._between,
             held=self._held,
             fingers=self._on_fingers,
             motion=self.gripper.motion,
@@ -180,11 +181,17 @@ class ArmHand:
             arm=self.paths,
         )
 
+    def _between(self) -> tuple[str, ...]:
+        return self.gripper.between(self._own, self._middle())
+
     def _held(self) -> tuple[str, ...]:
+        return self.gripper.held(self._own, self._middle())
+
+    def _middle(self) -> FloatArray:
         rotation: FloatArray = np.asarray(self._data.site_xmat[self._tool], dtype=np.float64).reshape(3, 3)
         ahead, across = self.paths.held_at(self.gripper.opening)
-        middle = self._data.site_xpos[self._tool] + rotation @ (ahead, across, 0.0)
-        return self.gripper.held(self._own, middle)
+        middle: FloatArray = self._data.site_xpos[self._tool] + rotation @ (ahead, across, 0.0)
+        return middle
 
     def _away(self) -> tuple[float, float]:
         commanded = self._commanded()

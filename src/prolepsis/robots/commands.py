@@ -232,8 +232,10 @@ class HandSense:
     """Measured velocity of the hand's frame in the world [m/s]; computed when asked."""
     pad_force: float
     """The smaller of the two pads' normal forces [N], also of pads that press each other."""
+    between: Callable[[], tuple[str, ...]] = nothing
+    """Wholes that lie between two pads that both feel something; computed when asked."""
     held: Callable[[], tuple[str, ...]] = nothing
-    """Wholes that it holds, as what lies between two pads that both feel something; computed when asked."""
+    """Those of them that it holds: they have not slipped since the pads closed on them; computed when asked."""
     away: Callable[[], tuple[float, float]] = on_target
     """How far it is from where it is commanded to be [m], and how far it is turned from that [rad]; computed when
     asked."""

@@ -102,6 +102,7 @@ class FlyingHand:
             pad_force=self.gripper.pad_force,
             motion=self.gripper.motion,
             stiffness=self._stiffness,
+            between=self._between,
             held=self._held,
             fingers=self._on_fingers,
             bump=self._bump,
@@ -113,6 +114,9 @@ class FlyingHand:
         wanted = turned(self._first, self._target.rotation)
         distance = float(np.linalg.norm(goal - self._data.xpos[self._palm]))
         return distance, float(angle_between(np.array(wanted), self._data.xquat[self._palm]))
+
+    def _between(self) -> tuple[str, ...]:
+        return self.gripper.between(self._own, self._data.xpos[self._palm])
 
     def _held(self) -> tuple[str, ...]:
         return self.gripper.held(self._own, self._data.xpos[self._palm])

@@ -108,9 +108,11 @@ def holding(hand: Thing, held: Thing, sense: Sense) -> HandSense:
         ActionFailedError: If it does not.
     """
     here = sense.hands[hand.name]
-    between = here.held()
-    if here.grip == 0.0 or held.name not in between:
-        instead = f": between its pads is {' and '.join(between) or 'nothing'}" if here.grip else ""
+    if here.grip == 0.0 or held.name not in here.held():
+        between = here.between() if here.grip else ()
+        instead = ", which has slipped in its grip" if held.name in between else ""
+        if here.grip and not instead:
+            instead = f": between its pads is {' and '.join(between) or 'nothing'}"
         raise ActionFailedError("not_held", f"{hand.name} does not hold {held.name}{instead}")
     return here
 

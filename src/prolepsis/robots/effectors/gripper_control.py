@@ -7,11 +7,14 @@ from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.robots.commands import CloseGripper, Command, OpenGripper
 from prolepsis.robots.effectors.gap import Gap
 from prolepsis.robots.touch import between_pads
 from prolepsis.scene.running import Running
+from prolepsis.system.mujoco import mujoco
 
 TOUCH_FORCE = 0.6
 """Greatest motor force before contact [N]: too weak to push away what is touched first."""
@@ -33,6 +36,8 @@ RESTING = 4
 """Ticks between two settings of a servo that only keeps its gap."""
 WIDTH_TOLERANCE = 1.0e-3
 """Gap error at which an opening has ended [m]."""
+SLID = 0.03
+"""What has slid so far between the pads since they closed on it has slipped out [m]: a pad is 2 to 4 cm long."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -79,6 +84,7 @@ class GripperControl:
         self._motor_force = 0.0
         self._gains = (0.0, 0.0)
         self._opening = (math.nan, 0.0)
+        self._taken: dict[str, FloatArray] = {}
         self.bind(state)
         self._width = self.opening
 
@@ -123,6 +129,8 @@ class GripperControl:
             # What is held must not be let go of while the force changes.
             touch = min(TOUCH_FORCE, command.force)
             self._ramp, self._ramp_from = (0.0, self._motor_force) if gripping else (None, touch)
+            if not gripping:
+                self._taken.clear()
             self._width = self.opening
         elif isinstance(command, OpenGripper):
             self._goal, self.command = command, 0.0
@@ -193,6 +201,24 @@ class GripperControl:
                 pads[second] += force
         self.pad_force = min(pads.values())
 
-    def held(self, own: Collection[int], middle: FloatArray) -> tuple[str, ...]:
+    def between(self, own: Collection[int], middle: FloatArray) -> tuple[str, ...]:
         """Return the wholes that lie between the pads, as ``EffectorControl`` has it."""
         return between_pads(self._state, self._pads, own, middle)
+
+    def held(self, own: Collection[int], middle: FloatArray) -> tuple[str, ...]:
+        """Return the wholes between the pads that have not slid away from where they were first felt there."""
+        if not self.command:
+            return self.between(own, middle)
+        return tuple(name for name in self.between(own, middle) if self._slid(name, middle) <= SLID)
+
+    def _slid(self, name: str, middle: FloatArray) -> float:
+        """Return how far a whole has slid between the pads since it was first felt there [m].
+
+        What turns about the pads does not slide, and of what has fallen apart it cannot be said.
+        """
+        body = mujoco.mj_name2id(self._model, mujoco.mjtObj.mjOBJ_BODY, name)
+        if body < 0:
+            return 0.0
+        rotation: FloatArray = np.asarray(self._data.xmat[body], dtype=np.float64).reshape(3, 3)
+        here: FloatArray = rotation.T @ (middle - self._data.xpos[body])
+        return float(np.linalg.norm(here - self._taken.setdefault(name, here)))

@@ -51,11 +51,15 @@ class EffectorControl(Protocol):
         """Read what the pads feel from the normal forces of the last substep, as ``Running`` gives them."""
         ...
 
-    def held(self, own: Collection[int], middle: FloatArray) -> tuple[str, ...]:
-        """Return the wholes that it holds, in the order of names: never what is one of its ``own`` bodies.
+    def between(self, own: Collection[int], middle: FloatArray) -> tuple[str, ...]:
+        """Return the wholes that it presses on from both sides, in the order of names: none of its ``own`` bodies.
 
         ``middle`` is where what it holds would have its middle, in the world [m], shape (3,).
         """
+        ...
+
+    def held(self, own: Collection[int], middle: FloatArray) -> tuple[str, ...]:
+        """Return those of ``between`` that it holds: what has slipped out of its grip is not, pressed on as it may be."""
         ...
 
 
