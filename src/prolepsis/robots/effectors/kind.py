@@ -59,7 +59,7 @@ class EffectorControl(Protocol):
         ...
 
     def held(self, own: Collection[int], middle: FloatArray) -> tuple[str, ...]:
-        """Return those of ``between`` that it holds: what has slipped out of its grip is not, pressed on as it may be."""
+        """Return those of ``between`` that it holds: what has slipped in its grip is not, though it presses on it."""
         ...
 
 
