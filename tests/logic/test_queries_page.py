@@ -42,7 +42,8 @@ def timeline_of_page() -> Timeline:
         parts=(("egg1", "eggshell1"),),
         values=(("egg1", "mass", 0.058),),
     )
-    return make_timeline(facts, dt=0.001, duration=2.0, domain=domain)
+    nearly = [Fact(kind="fluent", type="spilled", args=("yolk1",), start=0.6, end=2.0, evidence={"margin": 0.95})]
+    return make_timeline(facts, dt=0.001, duration=2.0, domain=domain, near_misses=nearly)
 
 
 EXAMPLES = re.findall(r"^\?- (.*)\.\n((?:% .*\n)+)", PAGE, re.MULTILINE)

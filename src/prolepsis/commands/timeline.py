@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -13,12 +14,13 @@ from prolepsis.system.cache import note
 from prolepsis.terms.errors import InputError, UnknownNameError
 
 if TYPE_CHECKING:
-    from prolepsis.log.timeline import Timeline
+    from prolepsis.log.timeline import Fact, Timeline
 
 EXAMPLE = """\
   prolepsis timeline out/drop
   prolepsis timeline out/drop --about egg1 --type breaking --type broken
   prolepsis timeline out/drop --from 0.6 --to 0.7 --all
+  prolepsis timeline out/drop --near
   prolepsis timeline out/drop --json
 Facts about many like things are told as one: contacts([12 parts of eggshell1],floor). What is alike is read off
 what the things are: parts of one whole, and things of the same classes and mass.
@@ -54,6 +56,11 @@ def add_to(commands: Any) -> None:
         "--to", dest="end", type=_time, default=math.inf, metavar="S", help="only facts that start before this time [s]"
     )
     parser.add_argument(
+        "--near",
+        action="store_true",
+        help="only what lies within a fifth of its threshold, and what did not come about but nearly (kind: nearly)",
+    )
+    parser.add_argument(
         "--json",
         action="store_true",
         help="print one JSON object a fact, never folded: kind, type, args, start, end, evidence",
@@ -63,19 +70,35 @@ def add_to(commands: Any) -> None:
 def run(given: argparse.Namespace) -> int:
     """Print the facts."""
     from prolepsis.log.saved import read_timeline
+    from prolepsis.log.timeline import plain
 
     if not given.begin < given.end:
         raise InputError(f"--from {given.begin:g} --to {given.end:g}: the first must be less than the second")
     timeline = selected(read_timeline(given.folder), given.about, given.type, given.begin, given.end)
     warn_unchecked(timeline.domain.unchecked)
+    if given.near:
+        timeline = _near(timeline)
     if given.json:
         for row in timeline.to_json():
             print(json_line(row))
+        for fact in timeline.near_misses if given.near else ():
+            print(json_line({**plain(fact), "nearly": True}))
     else:
-        print(table(rows(timeline, all=given.all)))
-    if not timeline.facts:
+        shown = rows(timeline, all=given.all)
+        if given.near:
+            nearly = rows(replace(timeline, facts=timeline.near_misses), all=given.all)[1:]
+            shown += [(start, end, "nearly", what, evidence) for start, end, _, what, evidence in nearly]
+        print(table(shown))
+    if not timeline.facts and not (given.near and timeline.near_misses):
         note(f"none of what is chosen is so; the log lasts {timeline.duration:g} s")
     return 0
+
+
+def _near(timeline: Timeline) -> Timeline:
+    """Return the timeline with only the facts that lie near their threshold."""
+    from prolepsis.log.near import is_near
+
+    return replace(timeline, facts=tuple(fact for fact in timeline.facts if is_near(fact.evidence)))
 
 
 def _time(text: str) -> float:
@@ -97,8 +120,6 @@ def selected(timeline: Timeline, names: Sequence[str], types: Sequence[str], beg
     Raises:
         UnknownNameError: If a name or a type occurs nowhere.
     """
-    from dataclasses import replace
-
     from prolepsis.log.folding import about
 
     known = {name for name, _ in timeline.domain.instances}
@@ -108,15 +129,13 @@ def selected(timeline: Timeline, names: Sequence[str], types: Sequence[str], beg
             raise UnknownNameError.of("thing", name, known, "--about")
     wanted = {_type(timeline, each) for each in types}
     things = [about(timeline, name) for name in names]
-    facts = (
-        fact
-        for fact in timeline.facts
-        if (not wanted or fact.type in wanted)
-        and all(any(each in within for each in fact.args) for within in things)
-        and begin < fact.end
-        and fact.start < end
-    )
-    return replace(timeline, facts=tuple(facts))
+
+    def is_wanted(fact: Fact) -> bool:
+        of_them = all(any(each in within for each in fact.args) for within in things)
+        return (not wanted or fact.type in wanted) and of_them and begin < fact.end and fact.start < end
+
+    facts, nearly = filter(is_wanted, timeline.facts), filter(is_wanted, timeline.near_misses)
+    return replace(timeline, facts=tuple(facts), near_misses=tuple(nearly))
 
 
 def _type(timeline: Timeline, given: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from prolepsis.fluents.agents.actions import action_facts
+from prolepsis.fluents.margins import NearMiss
 from prolepsis.fluents.observation import observe
 from prolepsis.fluents.registry import GROUNDINGS, check_declared
 from prolepsis.log.domain import Domain, with_things
@@ -28,8 +29,11 @@ def recognize(log: Log, *, domain: Domain | None = None) -> Timeline:
         given = brief(type(log).__name__)
         raise LogError(f"a log is recognized, as `read_log` or `Log.from_mujoco` gives it, not {given}")
     observation = observe(log)
-    facts: list[Fact] = [fact for grounding in GROUNDINGS for fact in grounding(observation)]
-    for kind, name, count in dict.fromkeys((fact.kind, fact.type, len(fact.args)) for fact in facts):
+    found = [each for grounding in GROUNDINGS for each in grounding(observation)]
+    facts: list[Fact] = [each for each in found if isinstance(each, Fact)]
+    nearly = [each.fact for each in found if isinstance(each, NearMiss)]
+    for kind, name, count in dict.fromkeys((fact.kind, fact.type, len(fact.args)) for fact in (*facts, *nearly)):
         check_declared(kind, name, count)
     facts += action_facts(observation)
-    return make_timeline(facts, dt=log.dt, duration=log.duration, domain=domain or with_things(Domain(), log.things))
+    known = domain or with_things(Domain(), log.things)
+    return make_timeline(facts, dt=log.dt, duration=log.duration, domain=known, near_misses=nearly)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
+from prolepsis.fluents.margins import NearMiss
 from prolepsis.fluents.observation import Observation
 from prolepsis.log.fact_types import EVENTS, FLUENTS, FactType
 from prolepsis.log.timeline import Fact, Kind
 from prolepsis.terms.errors import InputError, UnknownNameError
 
-Grounding = Callable[[Observation], Iterable[Fact]]
+Grounding = Callable[[Observation], Iterable[Fact | NearMiss]]
 
 GROUNDINGS: list[Grounding] = []
 """All groundings; a fact type may have several, one for solids and one for stuffs."""

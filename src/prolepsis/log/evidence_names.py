@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 EVIDENCE_UNITS: Mapping[str, str] = {
     "share": "1",
+    "margin": "1",
     "fraction": "1",
     "fraction_at_end": "1",
     "spilled_before": "1",

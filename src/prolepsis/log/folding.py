@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from prolepsis.log.domain import Domain
+from prolepsis.log.near import is_near
 from prolepsis.log.timeline import Argument, Fact, Kind, Timeline
 from prolepsis.terms.terms import format_atom, format_value
 
@@ -70,7 +71,7 @@ def fold(facts: Iterable[Fact], domain: Domain) -> list[Told]:
 
 def tell(fact: Fact) -> Told:
     """Return one fact by itself."""
-    evidence = ", ".join(f"{name}={_text(value)}" for name, value in fact.evidence.items())
+    evidence = ", ".join(f"{name}={_text(value)}" for name, value in fact.evidence.items()) + _near([fact])
     return Told(kind=fact.kind, what=format_value(fact.term), start=fact.start, end=fact.end, evidence=evidence)
 
 
@@ -99,7 +100,7 @@ def _tell(key: _Key, facts: Sequence[Fact]) -> list[Told]:
         return [tell(fact) for fact in facts]
     args = ",".join(_shown(each, members) for each in pattern)
     start, end = min(fact.start for fact in facts), max(fact.end for fact in facts)
-    evidence = ", ".join([f"facts={len(facts)}", *_ranges(facts)])
+    evidence = ", ".join([f"facts={len(facts)}", *_ranges(facts)]) + _near(facts)
     return [Told(kind=kind, what=f"{format_atom(type_)}({args})", start=start, end=end, evidence=evidence)]
 
 
@@ -119,6 +120,11 @@ def _ranges(facts: Sequence[Fact]) -> Iterable[str]:
         shown = list(dict.fromkeys([_text(min(numbers)), _text(max(numbers))] if numbers else ()))
         shown = ["..".join(shown)] if shown else []
         yield f"{name}={'|'.join([*shown, *texts[:MOST_TEXTS], *(['...'] if len(texts) > MOST_TEXTS else [])])}"
+
+
+def _near(facts: Iterable[Fact]) -> str:
+    """Return the mark of what lies near its threshold."""
+    return ", near its threshold" if any(is_near(fact.evidence) for fact in facts) else ""
 
 
 def _text(value: float | str) -> str:

@@ -8,7 +8,7 @@ from typing import Any, cast
 
 from prolepsis.log.domain import Domain
 from prolepsis.log.sealed import read_json, read_sealed, write_json
-from prolepsis.log.timeline import Timeline
+from prolepsis.log.timeline import Timeline, plain
 from prolepsis.terms.errors import InputError, LogError, brief
 
 DOMAIN, TIMELINE = "domain.json", "timeline.json"
@@ -39,10 +39,13 @@ def read_timeline_files(path: Path) -> Timeline:
         if not isinstance(told, dict) or not isinstance(told.get("facts"), list):  # pyright: ignore[reportUnknownMemberType]
             raise ValueError(f"{TIMELINE} must be an object with dt, duration and facts")
         table = cast("dict[str, Any]", told)
-        if len(table["facts"]) > MOST_FACTS:
+        nearly = cast("list[Any]", table.get("near_misses", []))  # older folders have none
+        if not isinstance(nearly, list):  # pyright: ignore[reportUnnecessaryIsInstance]
+            raise ValueError(f"{TIMELINE}: near_misses must be a list of facts")
+        if len(table["facts"]) + len(nearly) > MOST_FACTS:
             raise ValueError(f"{TIMELINE} has {len(table['facts'])} facts; at most {MOST_FACTS} are read")
         dt, duration = _time(table.get("dt"), 1e-9), _time(table.get("duration"), 0.0)
-        return Timeline.from_json(table["facts"], dt=dt, duration=duration, domain=domain)
+        return Timeline.from_json(table["facts"], dt=dt, duration=duration, domain=domain, near_misses=nearly)
     except FileNotFoundError as error:
         name = Path(str(error.filename)).name
         raise LogError(f"{path}: holds a log but no projection (it has no {name})") from None
@@ -93,10 +96,11 @@ def write_timeline_files(timeline: Timeline, path: Path) -> None:
     Raises:
         InputError: If it is so large that it could not be read.
     """
-    if len(timeline.facts) > MOST_FACTS:
+    if len(timeline.facts) + len(timeline.near_misses) > MOST_FACTS:
         raise InputError(
             f"the timeline cannot be saved: it has {len(timeline.facts):,} facts; {MOST_FACTS:,} could be read again"
         )
     write_json(path / DOMAIN, asdict(timeline.domain))
-    facts = {"dt": timeline.dt, "duration": timeline.duration, "facts": timeline.to_json()}
-    write_json(path / TIMELINE, facts)
+    nearly = [plain(fact) for fact in timeline.near_misses]
+    told = {"dt": timeline.dt, "duration": timeline.duration, "facts": timeline.to_json(), "near_misses": nearly}
+    write_json(path / TIMELINE, told)

@@ -73,6 +73,9 @@ class Timeline:
     """End of the run [s]."""
     domain: Domain = Domain()
     """What queries can read of the individuals."""
+    near_misses: tuple[Fact, ...] = ()
+    """What did not come about but nearly, ordered as facts are, over the time in which it nearly was; ``margin`` is its
+    only evidence."""
 
     def __repr__(self) -> str:
         """Return it in a line, as a prompt shows it."""
@@ -86,14 +89,14 @@ class Timeline:
         """
         _refuse_no_time("dt", self.dt)
         _refuse_no_time("duration", self.duration)
-        for number, fact in enumerate(self.facts, start=1):
+        for number, fact in enumerate((*self.facts, *self.near_misses), start=1):
             _refuse_no_fact(fact, number)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Timeline):
             return NotImplemented
-        mine = (self.facts, self.dt, self.duration, self.domain)
-        return mine == (other.facts, other.dt, other.duration, other.domain)
+        mine = (self.facts, self.dt, self.duration, self.domain, self.near_misses)
+        return mine == (other.facts, other.dt, other.duration, other.domain, other.near_misses)
 
     __hash__ = object.__hash__
 
@@ -124,32 +127,48 @@ class Timeline:
 
     def to_json(self) -> list[dict[str, Any]]:
         """Return the facts as plain data, one dictionary each."""
-        return [
-            {
-                "kind": fact.kind,
-                "type": fact.type,
-                "args": list(fact.args),
-                "start": fact.start,
-                "end": fact.end,
-                "evidence": dict(fact.evidence),
-            }
-            for fact in self.facts
-        ]
+        return [plain(fact) for fact in self.facts]
 
     @classmethod
     def from_json(
-        cls, rows: Iterable[Mapping[str, Any]], *, dt: float, duration: float, domain: Domain | None = None
+        cls,
+        rows: Iterable[Mapping[str, Any]],
+        *,
+        dt: float,
+        duration: float,
+        domain: Domain | None = None,
+        near_misses: Iterable[Mapping[str, Any]] = (),
     ) -> Timeline:
-        """Return the timeline of which ``rows`` are the facts, as ``to_json`` gives them.
+        """Return the timeline of which ``rows`` are the facts, as ``to_json`` gives them, and what nearly was.
 
         Raises:
             InputError: If a row is not a fact.
         """
         facts = [_read_fact(row, number) for number, row in enumerate(rows, start=1)]
-        return make_timeline(facts, dt=dt, duration=duration, domain=domain)
+        missed = [_read_fact(row, number) for number, row in enumerate(near_misses, start=1)]
+        return make_timeline(facts, dt=dt, duration=duration, domain=domain, near_misses=missed)
 
 
-def make_timeline(facts: Iterable[Fact], *, dt: float, duration: float, domain: Domain | None = None) -> Timeline:
+def plain(fact: Fact) -> dict[str, Any]:
+    """Return a fact as plain data."""
+    return {
+        "kind": fact.kind,
+        "type": fact.type,
+        "args": list(fact.args),
+        "start": fact.start,
+        "end": fact.end,
+        "evidence": dict(fact.evidence),
+    }
+
+
+def make_timeline(
+    facts: Iterable[Fact],
+    *,
+    dt: float,
+    duration: float,
+    domain: Domain | None = None,
+    near_misses: Iterable[Fact] = (),
+) -> Timeline:
     """Return the timeline of ``facts``: sorted, maximal, and at the instants of ticks that are nearest to their times.
 
     Stretches of the same fact that overlap or meet become one. Its evidence keeps, of a number given by several, the
@@ -161,22 +180,30 @@ def make_timeline(facts: Iterable[Fact], *, dt: float, duration: float, domain: 
         dt: Tick of the log [s].
         duration: End of the run [s].
         domain: What is known of the individuals.
+        near_misses: What did not come about but nearly, in any order.
 
     Raises:
         InputError: If a time is not finite, or a fact ends before it starts.
     """
     _refuse_no_time("dt", dt)
     _refuse_no_time("duration", duration)
-    facts = tuple(facts)
-    for number, fact in enumerate(facts, start=1):
+    facts, missed = tuple(facts), tuple(near_misses)
+    for number, fact in enumerate((*facts, *missed), start=1):
         _refuse_no_fact(fact, number)
     ticks = ticks_of(dt)
-    ordered = sorted((_at_ticks(fact, ticks) for fact in facts), key=lambda f: (_identity(f), f.start, f.end))
-    maximal = (whole for _, same in groupby(ordered, key=_identity) for whole in _merge(same))
     last = ticks.snapped(duration) if duration >= dt else duration
-    told = (_with_its_end(fact, last) for fact in maximal)
-    by_time = sorted(told, key=lambda f: (f.start, f.end, *_identity(f)))
-    return Timeline(facts=tuple(by_time), dt=dt, duration=last, domain=domain or Domain())
+    told = sorted((_with_its_end(fact, last) for fact in _maximal(facts, ticks)), key=_by_time)
+    nearly = tuple(sorted(_maximal(missed, ticks), key=_by_time))
+    return Timeline(facts=tuple(told), dt=dt, duration=last, domain=domain or Domain(), near_misses=nearly)
+
+
+def _maximal(facts: Iterable[Fact], ticks: Ticks) -> Iterable[Fact]:
+    ordered = sorted((_at_ticks(fact, ticks) for fact in facts), key=lambda f: (_identity(f), f.start, f.end))
+    return (whole for _, same in groupby(ordered, key=_identity) for whole in _merge(same))
+
+
+def _by_time(fact: Fact) -> tuple[Any, ...]:
+    return fact.start, fact.end, *_identity(fact)
 
 
 def _identity(fact: Fact) -> tuple[str, str, tuple[tuple[bool, Any], ...]]:

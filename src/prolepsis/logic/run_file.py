@@ -9,6 +9,7 @@ from pathlib import Path
 
 from prolepsis.log.asserted import with_asserted
 from prolepsis.log.fact_types import SYMMETRIC, fact_types
+from prolepsis.log.near import MARGIN
 from prolepsis.log.timeline import Argument, Fact, Timeline
 from prolepsis.terms.terms import format_atom, format_value
 from prolepsis.terms.ticks import ticks_of
@@ -30,6 +31,14 @@ def write_run(timeline: Timeline, file: Path) -> None:
         out.writelines(_declared_rows())
         out.writelines(_domain_rows(timeline))
         out.write("".join(_fact_rows(facts)))
+        for each in timeline.near_misses:
+            times = format_value(float(each.start)), format_value(float(each.end))
+            margin = format_value(each.evidence.get(MARGIN, 1.0))
+            out.write(f"near({_term(each)},{','.join(times)},{margin}).\n")
+
+
+def _term(fact: Fact) -> str:
+    return f"{_atom(fact.type)}({','.join(map(_text, fact.args))})" if fact.args else _atom(fact.type)
 
 
 def _text(value: Argument) -> str:
@@ -59,7 +68,7 @@ def _fact_rows(facts: Iterable[Fact]) -> Iterator[str]:
         key = (fact.type, fact.args)
         term = known.get(key)
         if term is None:
-            term = f"{_atom(fact.type)}({','.join(map(_text, fact.args))})" if fact.args else _atom(fact.type)
+            term = _term(fact)
             if all(isinstance(argument, str) for argument in fact.args):
                 known[key] = term
         start, end = repr(float(fact.start)), repr(float(fact.end))

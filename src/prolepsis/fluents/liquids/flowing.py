@@ -15,6 +15,7 @@ from prolepsis.fluents.solids.containment import NOTICEABLE_FRACTION
 from prolepsis.geometry.rotations import rotate
 from prolepsis.geometry.shape import BoolArray, IntArray
 from prolepsis.log.log import FREE, PARKED
+from prolepsis.log.near import MARGIN
 from prolepsis.log.timeline import Fact
 
 STREAM_WINDOW = 0.3
@@ -132,7 +133,8 @@ def evidence_of(seen: ParticleLocations, passages: Passages, during: BoolArray, 
     # A particle that splashes to and fro counts once.
     particles = np.unique(passages.particle[during])
     fraction = min(float(seen.share[particles].sum()), 1.0)
-    return {"fraction": fraction, "volume": fraction * seen.volume(stuff)}
+    passed = float(seen.share[passages.particle[during]].sum())
+    return {"fraction": fraction, "volume": fraction * seen.volume(stuff), MARGIN: passed / NOTICEABLE_FRACTION}
 
 
 def _exit_shares(

@@ -9,12 +9,14 @@ import numpy as np
 from prolepsis.fluents.intervals import debounce
 from prolepsis.fluents.liquids.liquid_motion import FLOWING_SPEED, particle_speeds
 from prolepsis.fluents.liquids.particle_locations import ParticleLocations, particle_locations
+from prolepsis.fluents.margins import NearMiss, margin_of, nearly
 from prolepsis.fluents.observation import Observation, named
 from prolepsis.fluents.registry import event, fluent
 from prolepsis.fluents.solids.containment import CONTAINED_GAP, CONTAINED_LEAST, NOTICEABLE_FRACTION
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.log import PARKED
-from prolepsis.log.timeline import Evidence, Fact
+from prolepsis.log.near import MARGIN
+from prolepsis.log.timeline import Fact
 
 RESIDUE_FRACTION = 0.05
 """Fraction of a stuff [1] up to which what still clings to a vessel that was emptied is its residue: it may gather at
@@ -29,7 +31,7 @@ bounces off or brushes past in falling is still under way."""
 
 
 @fluent("contains", "o1", "o2")
-def contains_liquid(observation: Observation) -> Iterator[Fact]:
+def contains_liquid(observation: Observation) -> Iterator[Fact | NearMiss]:
     """o2 is inside a cavity of o1 which it could not leave at rest, and o1 or what it contains bears it."""
     seen = observation.of(particle_locations)
     if seen is None:
@@ -50,7 +52,7 @@ def contains_liquid(observation: Observation) -> Iterator[Fact]:
 
 
 @fluent("supports", "o1", "o2")
-def supports_liquid(observation: Observation) -> Iterator[Fact]:
+def supports_liquid(observation: Observation) -> Iterator[Fact | NearMiss]:
     """o1 bears at least a tenth of o2's weight through contacts that lie under o2, and o2's weight is balanced."""
     seen = observation.of(particle_locations)
     if seen is None:
@@ -67,7 +69,7 @@ def supports_liquid(observation: Observation) -> Iterator[Fact]:
 
 
 @fluent("spilled", "o")
-def spilled_liquid(observation: Observation) -> Iterator[Fact]:
+def spilled_liquid(observation: Observation) -> Iterator[Fact | NearMiss]:
     """A noticeable fraction of the stuff rests on or flows over a surface outside every container."""
     seen = observation.of(particle_locations)
     if seen is None:
@@ -98,11 +100,12 @@ def spilling_liquid(observation: Observation) -> Iterator[Fact]:
         for start, end in _noticed(observation, seen, fraction):
             before, after = float(outside[max(start - 1, 0)]), float(outside[min(end, observation.tick_count - 1)])
             evidence = {"fraction": float(shown[start:end].max()), "spilled_before": before, "spilled_after": after}
+            evidence[MARGIN] = margin_of(shown / NOTICEABLE_FRACTION, start, end)
             yield observation.fact("event", "spilling", (observation.unit_names[stuff],), (start, end), evidence)
 
 
 @fluent("absorbs", "o1", "o2")
-def absorbs(observation: Observation) -> Iterator[Fact]:
+def absorbs(observation: Observation) -> Iterator[Fact | NearMiss]:
     """o1 has taken up a noticeable fraction of the stuff o2, which moves with it."""
     seen = observation.of(particle_locations)
     if seen is None:
@@ -192,12 +195,15 @@ def _facts(
     what: tuple[str, int | None, int],
     stretches: IntArray,
     series: dict[str, FloatArray],
-) -> Iterator[Fact]:
+) -> Iterator[Fact | NearMiss]:
     type, first, stuff = what
     names = (observation.unit_names[stuff],)
     args = names if first is None else (observation.unit_names[first], *names)
     shown = {name: seen.at_ticks(values, observation.tick_count) for name, values in series.items()}
-    for start, end in stretches:
-        evidence: Evidence = {name: float(values[start:end].max()) for name, values in shown.items()}
+    ratio = shown["fraction"] / NOTICEABLE_FRACTION
+    for start, end in stretches.tolist():
+        evidence = {name: float(values[start:end].max()) for name, values in shown.items()}
         evidence["fraction_at_end"] = float(shown["fraction"][end - 1])
+        evidence[MARGIN] = margin_of(ratio, start, end)
         yield observation.fact("fluent", type, args, (start, end), evidence)
+    yield from nearly(observation, ("fluent", type, args), ratio, stretches)

@@ -10,10 +10,12 @@ from prolepsis.fluents.evidence import ROUNDING
 from prolepsis.fluents.intervals import debounce, ticks_of
 from prolepsis.fluents.liquids.particle_locations import ParticleLocations, particle_locations
 from prolepsis.fluents.liquids.stuff import FLOWING_SPEED, MOST, STUFF_GAP, STUFF_LEAST
+from prolepsis.fluents.margins import margin_of
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event
 from prolepsis.geometry.shape import BoolArray, FloatArray
 from prolepsis.log.log import FREE, PARKED
+from prolepsis.log.near import MARGIN
 from prolepsis.log.timeline import Fact
 
 FLOWING_WINDOW = 0.1
@@ -70,5 +72,5 @@ def _mostly(observation: Observation, seen: ParticleLocations, type: str, mask: 
     for stuff in seen.stuffs():
         fraction = seen.at_ticks(seen.fraction(mask, stuff), observation.tick_count)
         for start, end in debounce(fraction >= MOST - ROUNDING, observation.dt, gap=STUFF_GAP, least=STUFF_LEAST):
-            evidence = {"fraction": float(fraction[start:end].max())}
+            evidence = {"fraction": float(fraction[start:end].max()), MARGIN: margin_of(fraction / MOST, start, end)}
             yield observation.fact("event", type, (observation.unit_names[stuff],), (start, end), evidence)

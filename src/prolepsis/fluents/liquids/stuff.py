@@ -13,15 +13,17 @@ from prolepsis.fluents.evidence import ROUNDING
 from prolepsis.fluents.intervals import debounce, mask_of, union
 from prolepsis.fluents.kinematics import surface_speeds
 from prolepsis.fluents.liquids.blobs_in_hollows import blobs_in_hollows
+from prolepsis.fluents.margins import NearMiss, margin_of
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event, fluent
 from prolepsis.fluents.solids.contact import FLICKER, is_stuff
-from prolepsis.fluents.solids.containment import NOTICEABLE_FRACTION, blob_shares, contents, evidence_of_share
+from prolepsis.fluents.solids.containment import NOTICEABLE_FRACTION, blob_shares, contents, facts_of_share
 from prolepsis.fluents.solids.fall import falling_runs
 from prolepsis.fluents.solids.motion import moving_runs
 from prolepsis.fluents.solids.support import support_runs
 from prolepsis.fluents.solids.touch import touches
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.log.near import MARGIN
 from prolepsis.log.timeline import Fact
 
 FLOWING_SPEED = 0.02
@@ -39,15 +41,14 @@ BlobMasks = Mapping[int, BoolArray]
 
 
 @fluent("spilled", "o")
-def spilled(observation: Observation) -> Iterator[Fact]:
+def spilled(observation: Observation) -> Iterator[Fact | NearMiss]:
     """A noticeable fraction of the stuff rests on or flows over a surface outside every container."""
     lying = observation.of(outside_masks)
     for stuff, shares in observation.of(blob_shares).items():
         fraction = _share(observation, shares, lying)
         mass = _mass(observation, stuff, shares)
-        for start, end in _noticed(observation, fraction):
-            evidence = evidence_of_share(fraction[start:end], mass)
-            yield observation.fact("fluent", "spilled", (observation.log.things[stuff].name,), (start, end), evidence)
+        what = "fluent", "spilled", (observation.log.things[stuff].name,)
+        yield from facts_of_share(observation, what, fraction, mass, _noticed(observation, fraction))
 
 
 @event("spilling", "o")
@@ -60,11 +61,12 @@ def spilling(observation: Observation) -> Iterator[Fact]:
         for start, end in _noticed(observation, fraction):
             before, after = float(outside[max(start - 1, 0)]), float(outside[min(end, observation.tick_count - 1)])
             evidence = {"fraction": float(fraction[start:end].max()), "spilled_before": before, "spilled_after": after}
+            evidence[MARGIN] = margin_of(fraction / NOTICEABLE_FRACTION, start, end)
             yield observation.fact("event", "spilling", (observation.log.things[stuff].name,), (start, end), evidence)
 
 
 @fluent("supports", "o1", "o2")
-def supports_stuff(observation: Observation) -> Iterator[Fact]:
+def supports_stuff(observation: Observation) -> Iterator[Fact | NearMiss]:
     """o1 bears at least a tenth of o2's weight through contacts that lie under o2, and o2's weight is balanced."""
     bearing = {pair: mask_of(s, observation.tick_count) for pair, s in observation.of(support_runs).items()}
     for stuff, shares in observation.of(blob_shares).items():
@@ -76,9 +78,8 @@ def supports_stuff(observation: Observation) -> Iterator[Fact]:
             ]
             fraction = _share(observation, shares, _piled(observation, rows, {below}))
             args = observation.unit_names[below], observation.log.things[stuff].name
-            for start, end in _noticed(observation, fraction):
-                evidence = evidence_of_share(fraction[start:end], mass)
-                yield observation.fact("fluent", "supports", args, (start, end), evidence)
+            what = "fluent", "supports", args
+            yield from facts_of_share(observation, what, fraction, mass, _noticed(observation, fraction))
 
 
 @event("moving", "o")
@@ -175,5 +176,5 @@ def _mostly(observation: Observation, type: str, find: Callable[[Observation], d
     for stuff, shares in observation.of(blob_shares).items():
         fraction = _share(observation, shares, masks)
         for start, end in debounce(fraction >= MOST - ROUNDING, observation.dt, gap=STUFF_GAP, least=STUFF_LEAST):
-            evidence = {"fraction": float(fraction[start:end].max())}
+            evidence = {"fraction": float(fraction[start:end].max()), MARGIN: margin_of(fraction / MOST, start, end)}
             yield observation.fact("event", type, (observation.log.things[stuff].name,), (start, end), evidence)

@@ -17,6 +17,7 @@ from prolepsis.fluents.solids.support import NOTICEABLE_SHARE, supporters
 from prolepsis.fluents.solids.touch import Touch, touches
 from prolepsis.geometry.rotations import rotate_back
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.log.near import MARGIN
 from prolepsis.log.timeline import Fact
 
 SQUEEZE = 0.5
@@ -61,12 +62,14 @@ def attached(observation: Observation) -> Iterator[Fact]:
             slip = np.linalg.norm(grip.position[end - 1] - grip.position[start])
             # In the middle of a gap of a hold it is not known.
             speed = grip.slip_speed[start:end]
+            speed = speed[np.isfinite(speed)]
             evidence: dict[str, float | str] = {
                 "by": "grip",
                 "pad_force": float(grip.force[start:end].mean()),
                 "peak_force": float(grip.force[start:end].max()),
                 "slip": float(slip),
-                "slip_speed": float(speed[np.isfinite(speed)].max()),
+                "slip_speed": float(speed.max()),
+                MARGIN: float(speed.max()) / LOST_SPEED,
             }
             for holder in grip.holders:
                 args = names[holder], names[grip.held]

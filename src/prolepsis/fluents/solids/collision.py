@@ -13,6 +13,7 @@ from prolepsis.fluents.registry import event
 from prolepsis.fluents.solids.contact import is_stuff, pair_names
 from prolepsis.fluents.solids.touch import Touch, touches
 from prolepsis.geometry.shape import FloatArray
+from prolepsis.log.near import MARGIN
 from prolepsis.log.timeline import Fact
 
 MEETING_SPEED = 0.05
@@ -42,9 +43,13 @@ def colliding(observation: Observation) -> Iterator[Fact]:
         for first, last in _impacts(touch, speed, separating, ticks_of(APART, observation.dt)):
             met = float(speed[first:last].max())
             impulse = float(touch.force[first:last].sum() * observation.dt)
-            if impulse < IMPULSE_SHARE * _lighter_mass(observation, touch) * MEETING_SPEED:
+            least = IMPULSE_SHARE * _lighter_mass(observation, touch) * MEETING_SPEED
+            if impulse < least:
                 continue
+            # What touches already must slam; whatever collides has passed the lower of the two speeds.
+            margin = min(met / MEETING_SPEED, impulse / least if least > 0 else np.inf)
             evidence = {"impulse": impulse, "peak_force": float(touch.peak[first:last].max()), "speed": met}
+            evidence[MARGIN] = margin
             stretch = touch.tick[first], touch.tick[last - 1] + 1
             yield observation.fact("event", "colliding", pair_names(observation, touch.a, touch.b), stretch, evidence)
 

@@ -9,13 +9,15 @@ import numpy as np
 
 from prolepsis.fluents.inside import Depths, depths_within
 from prolepsis.fluents.intervals import close_gaps, debounce, drop_short, hysteresis, mask_of, runs, ticks_of, union
+from prolepsis.fluents.margins import NearMiss, margin_of, nearly
 from prolepsis.fluents.observation import Observation, is_held_from_outside
 from prolepsis.fluents.registry import fluent
 from prolepsis.fluents.shapes_in_time import RigidShape, rigid_shapes
 from prolepsis.fluents.solids.contact import is_stuff
 from prolepsis.fluents.solids.support import support_runs, supporters
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
-from prolepsis.log.timeline import Fact
+from prolepsis.log.near import MARGIN
+from prolepsis.log.timeline import Fact, Kind
 
 NOTICEABLE_FRACTION = 0.02
 """Fraction of a stuff's mass [1] that is noticed: inside a container, on a surface, or spilled."""
@@ -40,7 +42,7 @@ class Content:
 
 
 @fluent("contains", "o1", "o2")
-def contains(observation: Observation) -> Iterator[Fact]:
+def contains(observation: Observation) -> Iterator[Fact | NearMiss]:
     """o2 is inside a cavity of o1 which it could not leave at rest, and o1 or what it contains bears it."""
     names = observation.unit_names
     for item in observation.of(contents):
@@ -55,7 +57,7 @@ def contains(observation: Observation) -> Iterator[Fact]:
     yield from _stuffs(observation)
 
 
-def _stuffs(observation: Observation) -> Iterator[Fact]:
+def _stuffs(observation: Observation) -> Iterator[Fact | NearMiss]:
     things = observation.log.things
     blobs = observation.of(blob_shares)
     for stuff in (i for i in range(len(things)) if observation.has_role(i, "Stuff")):
@@ -75,16 +77,33 @@ def _stuffs(observation: Observation) -> Iterator[Fact]:
             # The sum of all shares may fall short of a fraction by rounding, and exceed one.
             share = np.minimum(share, 1.0)
             enough = share >= NOTICEABLE_FRACTION - 1e-9
-            for start, end in debounce(enough, observation.dt, gap=CONTAINED_GAP, least=CONTAINED_LEAST):
-                evidence = evidence_of_share(share[start:end], mass)
-                args = observation.unit_names[container], things[stuff].name
-                yield observation.fact("fluent", "contains", args, (start, end), evidence)
+            args = observation.unit_names[container], things[stuff].name
+            stretches = debounce(enough, observation.dt, gap=CONTAINED_GAP, least=CONTAINED_LEAST)
+            yield from facts_of_share(observation, ("fluent", "contains", args), share, mass, stretches)
 
 
-def evidence_of_share(share: FloatArray, mass: float) -> dict[str, float]:
-    """Return the evidence of a fact about some share of a stuff [1], shape (T,), that weighs so much in all [kg]."""
-    greatest = float(share.max())
-    return {"fraction": greatest, "fraction_at_end": float(share[-1]), "mass": greatest * mass}
+def facts_of_share(
+    observation: Observation,
+    what: tuple[Kind, str, tuple[str, ...]],
+    share: FloatArray,
+    mass: float,
+    stretches: IntArray,
+) -> Iterator[Fact | NearMiss]:
+    """Yield the facts about a noticeable share of a stuff, and when it nearly was one.
+
+    Args:
+        observation: The log.
+        what: Kind, type and arguments.
+        share: The share [1], shape (T,).
+        mass: What all of the stuff weighs [kg].
+        stretches: When it is noticed.
+    """
+    ratio = share / NOTICEABLE_FRACTION
+    for start, end in stretches.tolist():
+        greatest = float(share[start:end].max())
+        evidence = {"fraction": greatest, "fraction_at_end": float(share[end - 1]), "mass": greatest * mass}
+        yield observation.fact(*what, (start, end), {**evidence, MARGIN: margin_of(ratio, start, end)})
+    yield from nearly(observation, what, ratio, stretches)
 
 
 def blob_shares(observation: Observation) -> dict[int, dict[int, float]]:

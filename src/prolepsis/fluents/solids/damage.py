@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from prolepsis.fluents.intervals import debounce
+from prolepsis.fluents.margins import NearMiss, nearly
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event, fluent
 from prolepsis.geometry.shape import IntArray
@@ -43,7 +44,7 @@ def _parts(observation: Observation, whole: int) -> dict[str, float]:
 
 
 @fluent("broken", "o")
-def broken(observation: Observation) -> Iterator[Fact]:
+def broken(observation: Observation) -> Iterator[Fact | NearMiss]:
     """A bond of the thing has detached; true from then on."""
     detachments = observation.log.detachments
     for whole, rows in observation.of(detached_rows).items():
@@ -51,6 +52,19 @@ def broken(observation: Observation) -> Iterator[Fact]:
         evidence = {"bonds": float(len(rows)), "force": float(detachments.force[rows].max())}
         evidence |= _parts(observation, whole)
         yield observation.fact("fluent", "broken", (observation.log.things[whole].name,), stretch, evidence)
+    yield from _nearly_broken(observation)
+
+
+def _nearly_broken(observation: Observation) -> Iterator[NearMiss]:
+    """Yield when the load of a whole's bonds came near their strength before one detached."""
+    log, tops, broke = observation.log, observation.of(_tops), observation.of(detached_rows)
+    for i, thing in enumerate(log.things):
+        load = log.channels.get(f"{thing.name}.load")
+        if load is None:
+            continue
+        first = int(log.detachments.tick[broke[tops[i]]].min()) if tops[i] in broke else observation.tick_count
+        whole = np.array([[first, observation.tick_count]], dtype=np.int64)
+        yield from nearly(observation, ("fluent", "broken", (log.things[tops[i]].name,)), load, whole)
 
 
 def detached_rows(observation: Observation) -> dict[int, IntArray]:

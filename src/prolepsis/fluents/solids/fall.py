@@ -15,6 +15,7 @@ from prolepsis.fluents.solids.contact import is_stuff
 from prolepsis.fluents.solids.support import supporters
 from prolepsis.fluents.solids.touch import touches
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.log.near import MARGIN
 from prolepsis.log.timeline import Fact
 
 FREE_FALL = 0.9
@@ -43,10 +44,9 @@ def falling(observation: Observation) -> Iterator[Fact]:
             continue
         for start, end in stretches:
             landed = min(int(end), observation.tick_count - 1)
-            evidence = {
-                "height": float(height[unit, start] - height[unit, landed]),
-                "speed": float(-climb[unit, start:end].min()),
-            }
+            fallen = float(height[unit, start] - height[unit, landed])
+            speed = float(-climb[unit, start:end].min())
+            evidence = {"height": fallen, "speed": speed, MARGIN: fallen / FALLING_HEIGHT}
             yield observation.fact("event", "falling", (observation.unit_names[unit],), (start, end), evidence)
 
 

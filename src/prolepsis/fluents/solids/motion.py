@@ -11,7 +11,8 @@ from prolepsis.fluents.kinematics import centres, surface_speeds, travel
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event
 from prolepsis.fluents.solids.contact import is_stuff
-from prolepsis.geometry.shape import BoolArray, IntArray
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.log.near import MARGIN
 from prolepsis.log.timeline import Fact
 
 MOVING_SPEED = 0.01
@@ -41,18 +42,20 @@ def moving(observation: Observation) -> Iterator[Fact]:
         if is_stuff(observation, unit):
             continue
         parts = _moving_parts(observation, unit)
-        for start, end in stretches:
+        gone = _gone(observation, parts)
+        for start, end in stretches.tolist():
             path = np.diff(position[parts, start : min(end + 1, observation.tick_count)], axis=1)
             evidence = {
                 "distance": float(np.sqrt(np.square(path).sum(axis=2)).sum(axis=1).max()),
                 "speed": float(speed[parts, start:end].max()),
+                MARGIN: _margin(gone[start : end + 1], observation.dt),
             }
             yield observation.fact("event", "moving", (observation.unit_names[unit],), (start, end), evidence)
 
 
 def moving_runs(observation: Observation) -> dict[int, IntArray]:
     """Return when each unit moves, parts of stuffs included. A hand's fingers do not count as the hand."""
-    masks, speed = observation.of(moving_masks), observation.of(surface_speeds)
+    masks = observation.of(moving_masks)
     gap = ticks_of(PAUSE, observation.dt)
     found: dict[int, IntArray] = {}
     for unit in observation.units:
@@ -60,11 +63,24 @@ def moving_runs(observation: Observation) -> dict[int, IntArray]:
         if not masks[parts].any():
             continue
         stretches = close_gaps(runs(masks[parts].any(axis=0) & observation.exists(unit)), gap)
-        path = np.concatenate(([0.0], np.cumsum(speed[parts].max(axis=0)) * observation.dt))
+        path = _gone(observation, parts)
         stretches = stretches[path[stretches[:, 1]] - path[stretches[:, 0]] >= LEAST_PATH]
         if len(stretches):
             found[unit] = stretches
     return found
+
+
+def _gone(observation: Observation, parts: list[int]) -> FloatArray:
+    """Return how far the outermost point of some things has gone before each tick [m], shape (T + 1,)."""
+    speed = observation.of(surface_speeds)
+    return np.concatenate(([0.0], np.cumsum(speed[parts].max(axis=0)) * observation.dt))
+
+
+def _margin(gone: FloatArray, dt: float) -> float:
+    """Return the lesser of path and greatest mean speed over what a motion has at least [1]."""
+    window = min(ticks_of(MOVING_WINDOW, dt), len(gone) - 1)
+    fastest = float((gone[window:] - gone[:-window]).max()) / (window * dt)
+    return min(float(gone[-1] - gone[0]) / LEAST_PATH, fastest / MOVING_SPEED)
 
 
 def _moving_parts(observation: Observation, unit: int) -> list[int]:

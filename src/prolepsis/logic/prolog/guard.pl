@@ -27,6 +27,7 @@
 :- use_module(asking, []).
 :- use_module(timeline, [in/2]).
 :- use_module(allen).
+:- use_module(near, []).
 :- use_module(open_ends, []).
 :- use_module(query).
 
@@ -47,6 +48,7 @@ term_expansion(trust(Module), Clauses) :-
 trust(asking).
 trust(timeline).
 trust(allen).
+trust(near).
 trust(open_ends).
 
 sandbox:safe_meta_predicate(timeline:in/2).
@@ -298,6 +300,7 @@ may(fluentT(?, ?)).
 may(event(?, ?)).
 may(eventT(?, ?)).
 may(ongoing(?)).
+may(near_miss(?, ?, ?)).
 may(argsOf(?, ?)).
 may(objOf(?, ?)).
 may(evidence(?, ?, ?, ?)).

@@ -40,6 +40,7 @@ takes(evidence(fact, ?, evidence, ?)).
 takes(fact(run, ?, type(fact), ?, ?, ?)).
 takes(in(run, ?)).
 takes(ongoing(fact)).
+takes(near_miss(fact, ?, ?)).
 takes(instance_of(individual, class)).
 takes(instance_of(individual, class, ?)).
 takes(has_part(individual, individual)).

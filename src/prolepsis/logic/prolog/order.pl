@@ -150,7 +150,7 @@ reads_timeline(Goal) :-
     ->  true
     ;   functor(Goal, Name, Arity),
         memberchk(Name/Arity, [ holds/2, occurs/2, fluent/2, fluentT/2, event/2, eventT/2, argsOf/2,
-                                objOf/2, ongoing/1, evidence/4, instance_of/2, instance_of/3, has_part/2,
+                                objOf/2, ongoing/1, near_miss/3, evidence/4, instance_of/2, instance_of/3, has_part/2,
                                 value/3, subclass_of/2, unit/2 ])
     ).
 

@@ -6,6 +6,7 @@
         proof(Id, Name, Value)      evidence behind a fact
         span(Start, End)            each distinct interval once, by start and end
         type(Type, Kind)            the types that occur
+        near(Term, Start, End, Margin)   what nearly was so
         wide(Type)                  those with more than two arguments
         symmetric(Type)             those whose two arguments are alike
         declared(Kind, Type, Arity) what else may occur, as far as Python has been told
@@ -47,6 +48,7 @@ table(type/2).
 table(wide/1).
 table(tick/2).
 table(lasts/1).
+table(near/4).
 table(symmetric/1).
 table(declared/3).
 table(instance/2).

@@ -110,6 +110,7 @@ evidence_unit(height, m).
 evidence_unit(impulse, 'N s').
 evidence_unit(largest, '1').
 evidence_unit(level, 'N').
+evidence_unit(margin, '1').
 evidence_unit(mass, kg).
 evidence_unit(mean_force, 'N').
 evidence_unit(opening_after, m).
