@@ -74,9 +74,13 @@ def test_a_cup_that_is_tipped_over_contains_the_beads_first_and_then_they_are_sp
     held, spilled = the(tipping, "contains(cup,beads)"), the(tipping, "spilled(beads)")
     # What runs out last is a bead or two.
     last = float(held.evidence["fraction_at_end"])
-    assert held.evidence == pytest.approx({"fraction": 1.0, "fraction_at_end": last, "mass": 0.012})
+    mean, least = (float(held.evidence[f"fraction_{name}"]) for name in ("mean", "least"))
+    assert {name: held.evidence[name] for name in ("fraction", "mass", "margin")} == pytest.approx(
+        {"fraction": 1.0, "mass": 0.012, "margin": 50.0}
+    )
+    assert 0.02 <= least <= last < mean < 1.0
     assert 0.0 < last < 0.5
-    assert spilled.evidence == pytest.approx({"fraction": 1.0, "fraction_at_end": 1.0, "mass": 0.012})
+    assert [spilled.evidence[name] for name in ("fraction", "fraction_at_end", "mass")] == pytest.approx([1, 1, 0.012])
     assert held.start < 0.1 < 0.5 < held.end < spilled.start
     assert spilled.end == tipping.duration
     assert "supports(floor,beads)" in at_end(tipping)
@@ -106,9 +110,10 @@ def test_some_beads_are_contained_while_others_are_spilled() -> None:
     beads = "".join(bead(k, in_cup(k) if k < 8 else on_floor(k)) for k in range(12))
     timeline = watch(world(FLOOR + free("cup", "0 0 .0001", CUP) + beads), 0.6, stuffs=BEADS)
     assert the(timeline, "contains(cup,beads)").evidence["fraction"] == pytest.approx(8 / 12)
-    assert the(timeline, "spilled(beads)").evidence == pytest.approx(
-        {"fraction": 4 / 12, "fraction_at_end": 4 / 12, "mass": 0.004}
-    )
+    share = 4 / 12
+    every = {"fraction": share, "fraction_mean": share, "fraction_least": share, "fraction_at_end": share}
+    evidence = {**every, "mass": 0.004, "margin": share / 0.02}
+    assert the(timeline, "spilled(beads)").evidence == pytest.approx(evidence)
     assert the(timeline, "supports(floor,beads)").evidence["fraction"] == pytest.approx(4 / 12)
     assert {"contains(cup,beads)", "spilled(beads)", "supports(floor,cup)"} <= at_end(timeline)
     assert not of_type(timeline, "falling", "spilling", "contacts") - {"contacts(cup,floor)"}

@@ -38,6 +38,8 @@ def _count(of: str) -> Range:
 RANGES: Mapping[str, Range] = {
     "share": _share("what bears a thing, of all that bears it"),
     "fraction": _share("mass of a stuff or volume of a thing"),
+    "fraction_mean": _share("mass of a stuff"),
+    "fraction_least": _share("mass of a stuff"),
     "fraction_at_end": _share("mass of a stuff"),
     "spilled_before": _share("mass of a stuff"),
     "spilled_after": _share("mass of a stuff"),

@@ -8,6 +8,8 @@ EVIDENCE_UNITS: Mapping[str, str] = {
     "share": "1",
     "margin": "1",
     "fraction": "1",
+    "fraction_mean": "1",
+    "fraction_least": "1",
     "fraction_at_end": "1",
     "spilled_before": "1",
     "spilled_after": "1",

@@ -172,7 +172,7 @@ def make_timeline(
     """Return the timeline of ``facts``: sorted, maximal, and at the instants of ticks that are nearest to their times.
 
     Stretches of the same fact that overlap or meet become one. Its evidence keeps, of a number given by several, the
-    greatest, and of a name, the first. A fact within one tick is made one tick long. Of an event that goes on to the
+    greatest (of one called ``_least`` the least), and of a name, the first. A fact within one tick is made one tick long. Of an event that goes on to the
     end of the log, evidence tells that it ends with it.
 
     Args:
@@ -240,7 +240,7 @@ def _merged_evidence(first: Evidence, second: Evidence) -> dict[str, float | str
     for name, value in second.items():
         known = merged.setdefault(name, value)
         if not isinstance(known, str) and not isinstance(value, str):
-            merged[name] = max(known, value)
+            merged[name] = min(known, value) if name.endswith("_least") else max(known, value)
     return merged
 
 

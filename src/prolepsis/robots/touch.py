@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 
+import numpy as np
+
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.scene.running import Running
 
 OUTSIDE = 2.0e-3
 """A contact whose side faces away from the middle between the pads by more than this is on the outside [m]."""
+BORNE = 0.1
+"""A body is borne by what takes this share of its weight [1]."""
 
 
 def between_pads(state: Running, pads: Collection[int], own: Collection[int], middle: FloatArray) -> tuple[str, ...]:
@@ -45,6 +49,20 @@ def _on(state: Running, bodies: Collection[int], own: Collection[int]) -> Iterat
             body, other, sign = (first, second, 1.0) if first in own else (second, first, -1.0)
             if body in bodies:
                 yield number, body, other, sign, force
+
+
+def is_borne(state: Running, body: int) -> bool:
+    """Return whether something that is no gripper bears a noticeable share of a body's weight from below."""
+    borne = 0.0
+    for number, first, second, force in state.normal_forces():
+        if body in (first, second):
+            other, sign = (first, 1.0) if body == second else (second, -1.0)
+            upward = sign * force * float(state.data.contact.frame[number][2])
+            thing = int(state.body_thing[other])
+            if upward > 0.0 and not (thing >= 0 and "Gripper" in state.scene.thing(whole_of(state, other)).roles):
+                borne += upward
+    gravity = float(np.linalg.norm(state.scene.gravity))
+    return borne > BORNE * float(state.model.body_mass[body]) * gravity
 
 
 def whole_of(state: Running, body: int) -> str:

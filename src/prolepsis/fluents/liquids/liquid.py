@@ -12,7 +12,7 @@ from prolepsis.fluents.liquids.particle_locations import ParticleLocations, part
 from prolepsis.fluents.margins import NearMiss, margin_of, nearly
 from prolepsis.fluents.observation import Observation, named
 from prolepsis.fluents.registry import event, fluent
-from prolepsis.fluents.solids.containment import CONTAINED_GAP, CONTAINED_LEAST, NOTICEABLE_FRACTION
+from prolepsis.fluents.solids.containment import CONTAINED_GAP, CONTAINED_LEAST, NOTICEABLE_FRACTION, fractions
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.log import PARKED
 from prolepsis.log.near import MARGIN
@@ -203,7 +203,7 @@ def _facts(
     ratio = shown["fraction"] / NOTICEABLE_FRACTION
     for start, end in stretches.tolist():
         evidence = {name: float(values[start:end].max()) for name, values in shown.items()}
-        evidence["fraction_at_end"] = float(shown["fraction"][end - 1])
+        evidence |= fractions(shown["fraction"][start:end])
         evidence[MARGIN] = margin_of(ratio, start, end)
         yield observation.fact("fluent", type, args, (start, end), evidence)
     yield from nearly(observation, ("fluent", type, args), ratio, stretches)

@@ -69,7 +69,8 @@ def attached(observation: Observation) -> Iterator[Fact]:
                 "peak_force": float(grip.force[start:end].max()),
                 "slip": float(slip),
                 "slip_speed": float(speed.max()),
-                MARGIN: float(speed.max()) / LOST_SPEED,
+                # A hold that ends in slipping always comes to the limit, so its firmest moment counts.
+                MARGIN: float(speed.min()) / TOGETHER_SPEED,
             }
             for holder in grip.holders:
                 args = names[holder], names[grip.held]
@@ -214,6 +215,7 @@ def _keeping(observation: Observation, grip: Grip, several: list[Grip]) -> list[
     """Return the grip with the stretches in which it keeps what it holds, if there are any."""
     count = observation.tick_count
     firm = mask_of(grip.stretches, count) & (grip.slip_speed < LOST_SPEED)
+    begun = grip.slip_speed < TOGETHER_SPEED
     for below, stretches in observation.of(supporters).get(grip.held, []):
         if below in grip.holders:
             continue
@@ -222,8 +224,9 @@ def _keeping(observation: Observation, grip: Grip, several: list[Grip]) -> list[
             if below in other.holders:
                 # A pad that lies under a thing bears it, too, and each of two hands holds what both grip.
                 carried &= ~mask_of(other.stretches, count)
-        firm &= ~carried | _dragged(observation, below, grip.held)
-    firm = _since(firm, grip.slip_speed < TOGETHER_SPEED)
+        begun &= ~carried | _dragged(observation, below, grip.held)
+    # What is set down is still held until it is let go of.
+    firm = _since(firm, begun)
     stretches = debounce(firm, observation.dt, gap=HOLD_GAP, least=HOLD_LEAST)
     return [replace(grip, stretches=stretches)] if len(stretches) else []
 

@@ -65,7 +65,7 @@ def _stuffs(observation: Observation) -> Iterator[Fact | NearMiss]:
         for body in sorted(set(within[within >= 0].tolist()) - {stuff}):
             name = observation.unit_names[observation.unit[body]]
             for stretch in runs(within == body):
-                evidence = {"fraction": 1.0, "fraction_at_end": 1.0}
+                evidence = fractions(np.ones(1))
                 yield observation.fact("fluent", "contains", (name, things[stuff].name), stretch, evidence)
         shares: dict[int, FloatArray] = {}
         for item in observation.of(contents):
@@ -100,10 +100,16 @@ def facts_of_share(
     """
     ratio = share / NOTICEABLE_FRACTION
     for start, end in stretches.tolist():
-        greatest = float(share[start:end].max())
-        evidence = {"fraction": greatest, "fraction_at_end": float(share[end - 1]), "mass": greatest * mass}
-        yield observation.fact(*what, (start, end), {**evidence, MARGIN: margin_of(ratio, start, end)})
+        evidence = fractions(share[start:end])
+        evidence |= {"mass": evidence["fraction"] * mass, MARGIN: margin_of(ratio, start, end)}
+        yield observation.fact(*what, (start, end), evidence)
     yield from nearly(observation, what, ratio, stretches)
+
+
+def fractions(share: FloatArray) -> dict[str, float]:
+    """Return the greatest, mean, least and last share of a stuff while a fact about it held, shape (T,)."""
+    named = (("", share.max()), ("_mean", share.mean()), ("_least", share.min()), ("_at_end", share[-1]))
+    return {f"fraction{name}": float(value) for name, value in named}
 
 
 def blob_shares(observation: Observation) -> dict[int, dict[int, float]]:

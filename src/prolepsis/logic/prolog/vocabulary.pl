@@ -106,6 +106,8 @@ evidence_unit(fill, '1').
 evidence_unit(force, 'N').
 evidence_unit(fraction, '1').
 evidence_unit(fraction_at_end, '1').
+evidence_unit(fraction_least, '1').
+evidence_unit(fraction_mean, '1').
 evidence_unit(height, m).
 evidence_unit(impulse, 'N s').
 evidence_unit(largest, '1').

@@ -12,7 +12,7 @@ import numpy as np
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.robots.commands import CloseGripper, Command, OpenGripper
 from prolepsis.robots.effectors.gap import Gap
-from prolepsis.robots.touch import between_pads
+from prolepsis.robots.touch import between_pads, is_borne
 from prolepsis.scene.running import Running
 from prolepsis.system.mujoco import mujoco
 
@@ -37,7 +37,8 @@ RESTING = 4
 WIDTH_TOLERANCE = 1.0e-3
 """Gap error at which an opening has ended [m]."""
 SLID = 0.03
-"""What has slid so far between the pads since they closed on it has slipped out [m]: a pad is 2 to 4 cm long."""
+"""What has slid so far between the pads since they closed on it, and is borne from below, has slipped out [m]: a pad is
+2 to 4 cm long."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -206,19 +207,19 @@ class GripperControl:
         return between_pads(self._state, self._pads, own, middle)
 
     def held(self, own: Collection[int], middle: FloatArray) -> tuple[str, ...]:
-        """Return the wholes between the pads that have not slid away from where they were first felt there."""
-        if not self.command:
-            return self.between(own, middle)
-        return tuple(name for name in self.between(own, middle) if self._slid(name, middle) <= SLID)
+        """Return the wholes between the pads that have not slipped out since they were first felt there."""
+        between = self.between(own, middle)
+        return tuple(name for name in between if not self._slipped_out(name, middle)) if self.command else between
 
-    def _slid(self, name: str, middle: FloatArray) -> float:
-        """Return how far a whole has slid between the pads since it was first felt there [m].
+    def _slipped_out(self, name: str, middle: FloatArray) -> bool:
+        """Return whether a whole has slid between the pads, and something else bears it now.
 
         What turns about the pads does not slide, and of what has fallen apart it cannot be said.
         """
         body = mujoco.mj_name2id(self._model, mujoco.mjtObj.mjOBJ_BODY, name)
         if body < 0:
-            return 0.0
+            return False
         rotation: FloatArray = np.asarray(self._data.xmat[body], dtype=np.float64).reshape(3, 3)
         here: FloatArray = rotation.T @ (middle - self._data.xpos[body])
-        return float(np.linalg.norm(here - self._taken.setdefault(name, here)))
+        slid = float(np.linalg.norm(here - self._taken.setdefault(name, here)))
+        return slid > SLID and is_borne(self._state, body)
