@@ -100,3 +100,29 @@ def one_sided_means(series: FloatArray, window: int) -> tuple[FloatArray, FloatA
     now = np.arange(count)
     before, after = np.maximum(now + 1 - window, 0), np.minimum(now + window, count)
     return (total[now + 1] - total[before]) / (now + 1 - before), (total[after] - total[now]) / (after - now)
+
+
+def opened(mask: BoolArray, frames: int) -> BoolArray:
+    """Return ``mask``, shape (F, P), without the runs along F that are shorter than ``frames``."""
+    count = len(mask)
+    total = np.zeros((count + 1, *mask.shape[1:]), dtype=np.int32)
+    np.cumsum(mask, axis=0, out=total[1:])
+    whole = total[frames:] - total[:-frames] == frames
+    found = np.zeros_like(mask)
+    for shift in range(frames):
+        found[shift : shift + len(whole)] |= whole
+    return found
+
+
+def arriving(there: BoolArray, still: BoolArray, frames: int) -> BoolArray:
+    """Return when what is somewhere has not yet come to rest since it came there, shape (F, P).
+
+    Args:
+        there: When each is there, shape (F, P).
+        still: When each does not move, shape (F, P).
+        frames: So many frames without motion are rest.
+    """
+    now = np.arange(len(there))[:, None]
+    came = np.maximum.accumulate(np.where(there, -1, now), axis=0)
+    rested = np.maximum.accumulate(np.where(opened(still & there, frames), now, -1), axis=0)
+    return there & (rested <= came)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from prolepsis.fluents.intervals import debounce
+from prolepsis.fluents.intervals import arriving, debounce, opened
 from prolepsis.fluents.liquids.liquid_motion import FLOWING_SPEED, particle_speeds
 from prolepsis.fluents.liquids.particle_locations import ParticleLocations, particle_locations
 from prolepsis.fluents.margins import NearMiss, margin_of, nearly
@@ -87,12 +87,14 @@ def spilled_liquid(observation: Observation) -> Iterator[Fact | NearMiss]:
 
 @event("spilling", "o")
 def spilling_liquid(observation: Observation) -> Iterator[Fact]:
-    """A noticeable fraction of the stuff flows over a surface outside every container, or has just come there."""
+    """A noticeable fraction of the stuff has come to a surface outside every container, and flows there still."""
     seen = observation.of(particle_locations)
     if seen is None:
         return
     lying = observation.of(spilled_masks)
-    flowing = lying & (observation.of(particle_speeds) > FLOWING_SPEED) & (seen.particles.holder != PARKED)
+    flows = observation.of(particle_speeds) > FLOWING_SPEED
+    frames = lasting_frames(observation, seen)
+    flowing = arriving(lying, ~flows, frames) & flows & (seen.particles.holder != PARKED)
     for stuff in seen.stuffs():
         fraction = seen.fraction(flowing, stuff)
         outside = seen.at_ticks(seen.fraction(lying, stuff), observation.tick_count)
@@ -126,22 +128,14 @@ def spilled_masks(observation: Observation) -> BoolArray:
     """Return which particles lie on or flow over a surface outside every container, or have left the scene, (F, P)."""
     seen = observation.of(particle_locations)
     assert seen is not None  # asked for by groundings that have looked
-    touching = seen.manner > 0
-    step = float(np.diff(seen.particles.tick).mean()) * observation.dt if len(seen.particles.tick) > 1 else 1.0
-    frames = max(1, round(LINGERING / step))
-    return opened(touching, min(frames, len(touching))) | (seen.particles.holder == PARKED)
+    return opened(seen.manner > 0, lasting_frames(observation, seen)) | (seen.particles.holder == PARKED)
 
 
-def opened(mask: BoolArray, frames: int) -> BoolArray:
-    """Return ``mask``, shape (F, P), without the runs along F that are shorter than ``frames``."""
-    count = len(mask)
-    total = np.zeros((count + 1, *mask.shape[1:]), dtype=np.int32)
-    np.cumsum(mask, axis=0, out=total[1:])
-    whole = total[frames:] - total[:-frames] == frames
-    found = np.zeros_like(mask)
-    for shift in range(frames):
-        found[shift : shift + len(whole)] |= whole
-    return found
+def lasting_frames(observation: Observation, seen: ParticleLocations) -> int:
+    """Return how many frames ``LINGERING`` lasts, at most all."""
+    tick = seen.particles.tick
+    step = float(np.diff(tick).mean()) * observation.dt if len(tick) > 1 else 1.0
+    return min(max(1, round(LINGERING / step)), len(tick))
 
 
 def _held(observation: Observation, seen: ParticleLocations, stuff: int) -> dict[int, FloatArray]:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Mapping
 import numpy as np
 
 from prolepsis.fluents.evidence import ROUNDING
-from prolepsis.fluents.intervals import debounce, mask_of, union
+from prolepsis.fluents.intervals import arriving, debounce, mask_of, ticks_of, union
 from prolepsis.fluents.kinematics import surface_speeds
 from prolepsis.fluents.liquids.blobs_in_hollows import blobs_in_hollows
 from prolepsis.fluents.margins import NearMiss, margin_of
@@ -53,9 +53,13 @@ def spilled(observation: Observation) -> Iterator[Fact | NearMiss]:
 
 @event("spilling", "o")
 def spilling(observation: Observation) -> Iterator[Fact]:
-    """A noticeable fraction of the stuff flows over a surface outside every container, or has just come there."""
+    """A noticeable fraction of the stuff has come to a surface outside every container, and flows there still."""
     lying, speed = observation.of(outside_masks), observation.of(surface_speeds)
-    flowing = {blob: mask & (speed[blob] > FLOWING_SPEED) for blob, mask in lying.items()}
+    frames = min(ticks_of(LINGERING, observation.dt), observation.tick_count)
+    flowing: dict[int, BoolArray] = {}
+    for blob, mask in lying.items():
+        flows = speed[blob] > FLOWING_SPEED
+        flowing[blob] = arriving(mask[:, None], ~flows[:, None], frames)[:, 0] & flows
     for stuff, shares in observation.of(blob_shares).items():
         fraction, outside = _share(observation, shares, flowing), _share(observation, shares, lying)
         for start, end in _noticed(observation, fraction):
