@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import pickle
 from pathlib import Path
 
 import pytest
 
 from prolepsis.knowledge import KnowledgeBase
-from prolepsis.terms.errors import InconsistentError, InputError
+from prolepsis.terms.errors import LONGEST_LINE, InconsistentError, InputError
 
 PREFIX = "@prefix : <https://w3id.org/prolepsis#> .\n"
 
@@ -47,6 +48,11 @@ PREFIX = "@prefix : <https://w3id.org/prolepsis#> .\n"
             ":b a :Block ; :mass 1 ; :hasPart :c . :c a :Block ; :hasPart :d . :d a :Block ; :mass 2 .",
             r"the mass of b is 1 kg, but its part c has 2 kg$",
         ),
+        (":cup a :Cup .", r"s\.ttl:2: cup is a ShapeKind of the ontology; name the individual otherwise, such as cup1"),
+        (
+            ":box a :Table . :egg1 a :Egg ; :on :box .",
+            r"s\.ttl:2: box is a ShapeKind of the ontology; name the individual",
+        ),
         (":egg1 a :Egg\n:floor a :Floor .", r"s\.ttl:\d: Turtle syntax"),
     ],
 )
@@ -65,3 +71,31 @@ def test_a_contradiction_names_the_axioms_that_clash(tmp_path: Path) -> None:
     message = str(caught.value)
     assert "egg1 is an Egg" in message and "egg1 is a ForceLevel" in message and "s.ttl:2" in message
     assert message.count(";") == 3
+
+
+def test_a_contradiction_of_many_axioms_is_one_line_and_tells_the_user_s_own_first(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    path = Path("s.ttl")
+    path.write_text(f"{PREFIX}:egg1 a :Water , :Cup .")
+    with pytest.raises(InconsistentError) as caught:
+        KnowledgeBase.load(path)
+    message, conflict = str(caught.value), caught.value.conflict
+    assert len(message) <= LONGEST_LINE and "; every Water is a Liquid" in message
+    assert message.startswith(
+        f"the knowledge base contradicts itself: egg1 is a Cup ({path}:2); egg1 is a Water ({path}:2)"
+    )
+    assert sum(map(len, conflict)) > LONGEST_LINE and any("liquids.ttl:" in each for each in conflict)
+    assert pickle.loads(pickle.dumps(caught.value)).conflict == conflict
+
+
+def test_a_contradiction_that_has_no_room_says_how_much_more_there_is(tmp_path: Path) -> None:
+    path = tmp_path / "s.ttl"
+    names = [f"{'Long' * 12}Class{k}" for k in range(9)]
+    lines = [f":{a} a owl:Class ; rdfs:subClassOf :{b} ." for a, b in zip(names, [*names[1:], "Water"], strict=True)]
+    owl = "@prefix owl: <http://www.w3.org/2002/07/owl#> .\n@prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .\n"
+    path.write_text("\n".join([PREFIX + owl, *lines, f":egg1 a :Cup , :{names[0]} ."]))
+    with pytest.raises(InconsistentError, match=r"; and \d+ more$") as caught:
+        KnowledgeBase.load(path)
+    assert len(str(caught.value)) <= LONGEST_LINE and len(caught.value.conflict) > 10

@@ -9,7 +9,7 @@ import pytest
 from prolepsis.cli import main
 from prolepsis.knowledge import KnowledgeBase
 from prolepsis.knowledge.axioms import Axiom
-from prolepsis.knowledge.reasoning import explain
+from prolepsis.knowledge.reasoning import contradiction
 from prolepsis.projection import Projection
 from prolepsis.scenario.scenario import Scenario
 from prolepsis.terms.errors import InconsistentError
@@ -111,4 +111,4 @@ def test_a_limit_that_is_no_time_is_refused(
 def test_an_explanation_that_is_not_found_in_time_says_so(no_cache: pytest.MonkeyPatch) -> None:
     no_cache.setenv("PROLEPSIS_REASONER_SECONDS", "0.0001")
     axioms = tuple(Axiom(f"SubClassOf(<c:{i}> <c:{i + 1}>)", f"every {i} is {i + 1}", "file") for i in range(3))
-    assert "not found in time" in explain(axioms)
+    assert "not found in time" in str(contradiction(axioms))

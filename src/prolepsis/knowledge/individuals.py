@@ -31,6 +31,7 @@ def read_situation(documents: tuple[Document, ...], vocabulary: Vocabulary, most
     classes: dict[str, tuple[str, ...]] = {}
     locations: dict[str, str] = {}
     iris: dict[str, URIRef] = {}
+    built_in: set[str] = set()
     for document in documents:
         if not document.built_in:
             _refuse_misplaced(document, vocabulary)
@@ -48,6 +49,11 @@ def read_situation(documents: tuple[Document, ...], vocabulary: Vocabulary, most
                 for t in document.graph.objects(iri, RDF.type)
                 if isinstance(t, URIRef) and t not in (OWL.NamedIndividual, OWL.Thing)
             ]
+            if name in built_in and not {*told} <= {*classes[name]}:
+                taken = f"{name} is a {classes[name][0]} of the ontology"
+                raise KnowledgeError(f"{document.where(iri)}: {taken}; name the individual otherwise, such as {name}1")
+            if document.built_in:
+                built_in.add(name)
             if told or name not in classes:
                 classes[name] = tuple(sorted({*classes.get(name, ()), *told}))
                 locations.setdefault(name, document.where(iri))

@@ -22,10 +22,11 @@ from prolepsis.knowledge.inferred import Types
 from prolepsis.knowledge.kept import keep_answer, read_answer
 from prolepsis.knowledge.reasoner import Budget, is_consistent
 from prolepsis.knowledge.situation import Situation
+from prolepsis.knowledge.sources import ONTOLOGY_FOLDER
 from prolepsis.knowledge.time_limit import LIMIT_VARIABLE
 from prolepsis.knowledge.turtle import Document
 from prolepsis.knowledge.vocabulary import Vocabulary
-from prolepsis.terms.errors import InconsistentError, UndecidedError
+from prolepsis.terms.errors import LONGEST_LINE, InconsistentError, UndecidedError, error_line
 
 Answer = list[int] | str
 """What is kept of the reasoner: numbers of what follows, or one of these words."""
@@ -80,7 +81,7 @@ def infer_types(documents: tuple[Document, ...], vocabulary: Vocabulary, situati
     try:
         try:
             if witnesses and not can_be(terms, witnesses, budget):
-                raise InconsistentError(f"the knowledge base contradicts itself: {explain(terms + witnesses)}")
+                raise contradiction(terms + witnesses)
         except UndecidedError as error:
             unchecked = str(error)
         try:
@@ -165,9 +166,7 @@ def entailed_types(
         raise UndecidedError(f"forward chaining did not end within {MOST_STEPS} steps")
     node = clashing(chaining)
     if node is not None:
-        raise InconsistentError(
-            f"the knowledge base contradicts itself: {explain((*terms, *_around(node, terms, facts)))}"
-        )
+        raise contradiction((*terms, *_around(node, terms, facts)))
     found = chaining.named()
     if not counts_along_chains(terms) and is_whole(chaining):
         return found
@@ -189,7 +188,7 @@ def entailed_types(
         )
         answer = _kept_probes(terms, here, members, probes, budget)
         if answer is None:
-            raise InconsistentError(f"the knowledge base contradicts itself: {explain((*terms, *here))}")
+            raise contradiction((*terms, *here))
         for probe in answer:
             found[f"<{probe.individual}>"] |= {f"<{probe.class_iri}>"}
     return {name: found[groups.stands_for[name]] for name in groups.stands_for}
@@ -284,17 +283,50 @@ def entailed_probes(
     return search(probes)
 
 
-def explain(axioms: tuple[Axiom, ...]) -> str:
-    """Return the few axioms that cannot hold together, as a person would say them, with the files they come from."""
+def contradiction(axioms: tuple[Axiom, ...]) -> InconsistentError:
+    """Return the error for axioms that contradict each other: the few that do, as a person would say them.
+
+    Where the line has no room for all and their files, those of a user's own files come first, and the ontology's
+    without theirs.
+    """
+    told = "the knowledge base contradicts itself: "
+    try:
+        found = explain(axioms)
+    except UndecidedError:
+        why = f"which axioms clash was not found in time; allow more with the environment variable {LIMIT_VARIABLE}"
+        return InconsistentError(f"{told}{why}")
+    if not found:
+        return InconsistentError(f"{told}two names are given to one thing")
+    whole = tuple(f"{axiom.reading} ({axiom.where})" for axiom in found)
+    line = f"{told}{'; '.join(whole)}"
+    if len(line) <= LONGEST_LINE:
+        return InconsistentError(line, whole)
+    own = [text for axiom, text in zip(found, whole, strict=True) if not _is_built_in(axiom)]
+    texts = [*own, *(axiom.reading for axiom in found if _is_built_in(axiom))]
+    kept = len(texts)
+    while kept > 1 and len(line := _few(told, texts, kept)) > LONGEST_LINE:
+        kept -= 1
+    return InconsistentError(error_line(line), whole)
+
+
+def _few(told: str, texts: list[str], kept: int) -> str:
+    rest = f"; and {len(texts) - kept} more" if kept < len(texts) else ""
+    return f"{told}{'; '.join(texts[:kept])}{rest}"
+
+
+def _is_built_in(axiom: Axiom) -> bool:
+    return axiom.where.startswith(f"{ONTOLOGY_FOLDER}/")
+
+
+def explain(axioms: tuple[Axiom, ...]) -> tuple[Axiom, ...]:
+    """Return the few axioms that cannot hold together; none if those that are not in doubt cannot.
+
+    Raises:
+        UndecidedError: If the reasoner runs out of time.
+    """
     background, doubted = tuple(a for a in axioms if not a.where), tuple(a for a in axioms if a.where)
     if clashes(axioms):
         # Chaining is a hundred times quicker than the reasoner, and leaves it only a few axioms.
         doubted = smallest_conflict(background, doubted, lambda some: not clashes(some))
     budget = Budget()
-    try:
-        conflict = smallest_conflict(background, doubted, lambda some: is_consistent(some, budget))
-    except UndecidedError:
-        return f"which axioms clash was not found in time; allow more with the environment variable {LIMIT_VARIABLE}"
-    if not conflict:
-        return "two names are given to one thing"
-    return "; ".join(f"{axiom.reading} ({axiom.where})" for axiom in conflict)
+    return smallest_conflict(background, doubted, lambda some: is_consistent(some, budget))

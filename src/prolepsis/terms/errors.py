@@ -102,7 +102,16 @@ class KnowledgeError(InputError):
 
 
 class InconsistentError(KnowledgeError):
-    """The knowledge base contradicts itself."""
+    """The knowledge base contradicts itself; ``conflict`` has all that clashes, also where the line has not."""
+
+    def __init__(self, message: str, conflict: tuple[str, ...] = ()) -> None:
+        """Keep the line, and what clashes: each as a person would say it, with where it is said."""
+        super().__init__(message)
+        self.conflict = conflict
+
+    def __reduce__(self) -> tuple[type[InconsistentError], tuple[str, tuple[str, ...]]]:
+        """Travel whole from one process to another."""
+        return type(self), (str(self), self.conflict)
 
 
 class UndecidedError(KnowledgeError):
