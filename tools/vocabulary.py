@@ -30,6 +30,7 @@ HEAD = """\
             parent/2,                   % ?Class, ?Parent
             defined_by/3,               % ?Class, ?Property, ?Filler
             property_parent/2,          % ?Property, ?Parent
+            property_inverse/2,         % ?Property, ?Inverse
             property/2                  % ?Property, ?Unit
           ]).
 """
@@ -54,6 +55,10 @@ def vocabulary_text() -> str:
         (
             "property_parent(Property, Parent): the properties, and those above them as told.",
             _rows("property_parent", ((p.name, above) for p in vocabulary.properties.values() for above in p.parents)),
+        ),
+        (
+            "property_inverse(Property, Inverse): what says the same from the other end, as told.",
+            _rows("property_inverse", ((p.name, its) for p in vocabulary.properties.values() for its in p.inverses)),
         ),
         (
             "property(Property, Unit): what individuals have; the unit of what is no quantity is ''.",

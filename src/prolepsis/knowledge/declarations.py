@@ -6,13 +6,22 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from rdflib import OWL, RDF, RDFS, XSD, BNode, Literal, Namespace, URIRef
+from rdflib import OWL, RDF, RDFS, XSD, BNode, Graph, Literal, Namespace, URIRef
 from rdflib.collection import Collection
 from rdflib.term import Node
 
 from prolepsis.knowledge.sources import NAMESPACE
 from prolepsis.knowledge.turtle import Document, local_name
-from prolepsis.knowledge.vocabulary import CERTAINTIES, ClassEntry, Curve, Default, DefaultPart, Property, Vocabulary
+from prolepsis.knowledge.vocabulary import (
+    CERTAINTIES,
+    INVERSE_OF,
+    ClassEntry,
+    Curve,
+    Default,
+    DefaultPart,
+    Property,
+    Vocabulary,
+)
 from prolepsis.knowledge.written import read_value
 from prolepsis.terms.errors import KnowledgeError, brief
 from prolepsis.terms.units import qudt_symbol, unit_of
@@ -37,11 +46,11 @@ def read_vocabulary(documents: tuple[Document, ...]) -> Vocabulary:
             properties[entry.name] = entry if known is None else _more_aligned(known, entry)
     for document in documents:
         # A file may say more of a property that another one declares.
-        for iri, above in sorted(document.graph.subject_objects(RDFS.subPropertyOf), key=str):
-            known = properties.get(local_name(iri)) if isinstance(iri, URIRef) else None
-            if isinstance(iri, URIRef) and isinstance(above, URIRef) and known is not None and known.iri == str(iri):
-                parents = tuple(sorted({*known.parents, local_name(above)}))
-                properties[known.name] = replace(known, parents=parents)
+        for field, iri, other in _between_properties(document):
+            known = properties.get(local_name(iri))
+            if known is not None and known.iri == str(iri):
+                told = {*(known.parents if field == "parents" else known.inverses), local_name(other)}
+                properties[known.name] = replace(known, **{field: tuple(sorted(told))})
     classes: dict[str, ClassEntry] = {}
     for document in documents:
         for iri in _named(document, OWL.Class):
@@ -56,6 +65,23 @@ def read_vocabulary(documents: tuple[Document, ...]) -> Vocabulary:
             if known is not None and known.iri == str(iri):
                 classes[known.name] = _joined(known, _class(document, iri, properties))
     return Vocabulary(classes=dict(sorted(classes.items())), properties=dict(sorted(properties.items())))
+
+
+def _between_properties(document: Document) -> Iterator[tuple[str, URIRef, URIRef]]:
+    """Yield which field of the first property names the second."""
+    graph = document.graph
+    same = {
+        pair for one, other in graph.subject_objects(OWL.equivalentProperty) for pair in ((one, other), (other, one))
+    }
+    symmetric = {(iri, iri) for iri in graph.subjects(RDF.type, OWL.SymmetricProperty)}
+    told = (
+        ("parents", {*graph.subject_objects(RDFS.subPropertyOf), *same}),
+        ("inverses", {*graph.subject_objects(OWL.inverseOf), *symmetric}),
+    )
+    for field, pairs in told:
+        for iri, other in sorted(pairs, key=str):
+            if isinstance(iri, URIRef) and isinstance(other, URIRef):
+                yield field, iri, other
 
 
 def _refuse_second_name(document: Document, iri: URIRef, known: Property | ClassEntry | None) -> None:
@@ -161,22 +187,31 @@ def _class(document: Document, iri: URIRef, properties: Mapping[str, Property]) 
 def _conditions(document: Document, iri: URIRef) -> tuple[tuple[str, str], ...]:
     """Return what a definition asks for, one row each; nothing if a part of it is of another form, or there are two."""
     graph, found = document.graph, list[tuple[str, str]]()
-    meanings = [e for e in graph.objects(iri, OWL.equivalentClass) if isinstance(e, BNode)]
+    told = {*graph.objects(iri, OWL.equivalentClass), *graph.subjects(OWL.equivalentClass, iri)}
+    meanings = [e for e in told if isinstance(e, BNode)] or [e for e in told if not is_aligned(e)]
     if len(meanings) != 1:
         return ()
     members = graph.value(meanings[0], OWL.intersectionOf)
     for member in meanings if members is None else Collection(graph, members):
-        on = graph.value(member, OWL.onProperty)
+        on = _asked(graph, graph.value(member, OWL.onProperty))
         truth, some = graph.value(member, OWL.hasValue), graph.value(member, OWL.someValuesFrom)
         if isinstance(member, URIRef):
-            found.append(("is", local_name(member)))
-        elif isinstance(on, URIRef) and isinstance(truth, Literal) and truth.value is True:
-            found.append((local_name(on), "true"))
-        elif isinstance(on, URIRef) and isinstance(some, URIRef) and not str(some).startswith(str(XSD)):
-            found.append((local_name(on), "" if some == OWL.Thing else local_name(some)))
+            found.append(("is a", local_name(member)))
+        elif on and isinstance(truth, Literal) and truth.value is True:
+            found.append((on, "is true"))
+        elif on and isinstance(some, URIRef) and not str(some).startswith(str(XSD)):
+            found.append((on, "" if some == OWL.Thing else local_name(some)))
         else:
             return ()
     return tuple(sorted(found))
+
+
+def _asked(graph: Graph, on: Node | None) -> str:
+    """Return a property as conditions name it, empty if it has no name."""
+    if isinstance(on, URIRef):
+        return local_name(on)
+    inverse = None if on is None else graph.value(on, OWL.inverseOf)
+    return f"{INVERSE_OF}{local_name(inverse)}" if isinstance(inverse, URIRef) else ""
 
 
 def _word(document: Document, iri: URIRef) -> str:

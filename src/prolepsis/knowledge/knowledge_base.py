@@ -233,15 +233,12 @@ class KnowledgeBase:
     def domain(self) -> Domain:
         """Return what is known of the physical objects and force levels as plain rows."""
         names = self.individuals
-        return Domain(
+        return replace(
+            self.vocabulary.domain(),
             instances=tuple((n, c) for n in names for c in self.types.classes[n]),
             parts=tuple((w, p) for w in names for p in self.situation.parts.get(w, ())),
             values=tuple((n, p, k.value) for n in names for p, k in self.quantities(n).items()),
             relations=self.relations(),
-            subclasses=tuple(sorted({(c.name, p) for c in self.vocabulary.classes.values() for p in c.parents})),
-            definitions=tuple((c.name, *row) for c in self.vocabulary.classes.values() for row in c.conditions),
-            subproperties=tuple((p, above) for p, e in self.vocabulary.properties.items() for above in e.parents),
-            units=tuple((p, e.si_unit) for p, e in self.vocabulary.properties.items() if e.kind == "quantity"),
             unchecked=self.unchecked,
         )
 

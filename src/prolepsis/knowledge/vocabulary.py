@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from prolepsis.log.domain import Domain
 from prolepsis.terms.units import si_symbol, to_si, unit_of
 
 CERTAINTIES = {
@@ -15,6 +16,8 @@ CERTAINTIES = {
     "D": "decided here",
 }
 """How well a default is known."""
+INVERSE_OF = "inverse of "
+"""What a property that is only named as the inverse of another begins with."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -40,7 +43,9 @@ class Property:
     functional: bool = False
     """True if an individual has at most one value."""
     parents: tuple[str, ...] = ()
-    """More general properties."""
+    """More general properties, and those that are said to be the same."""
+    inverses: tuple[str, ...] = ()
+    """Properties that say the same from the other end; a symmetric one is its own."""
     range: str = ""
     """Class of the values of a relation, if one is named."""
     alignments: tuple[str, ...] = ()
@@ -142,8 +147,9 @@ class ClassEntry:
     defined: bool = False
     """True if the reasoner decides who belongs to it (``owl:equivalentClass``)."""
     conditions: tuple[tuple[str, str], ...] = ()
-    """What makes up a definition that is an intersection of named classes, ``("is", "Gripper")``, of what is true,
-    ``("wet", "true")``, and of relations to some of a named class, ``("contains", "Liquid")``; none of any other."""
+    """What makes up a definition that is an intersection of named classes, ``("is a", "Gripper")``, of what is true,
+    ``("wet", "is true")``, and of relations to some of a named class, ``("contains", "Liquid")``, or to what has one to
+    it, ``("inverse of contains", "Cup")``; none of any other."""
     defaults: tuple[Default, ...] = ()
     """Class defaults."""
     curves: tuple[Curve, ...] = ()
@@ -175,6 +181,24 @@ class Vocabulary:
         default_factory=dict[tuple[str, ...], tuple[str, ...]], init=False, repr=False, compare=False
     )
     """What was asked of the classes already: many individuals are told to be of the same."""
+
+    def domain(self) -> Domain:
+        """Return what is told of classes and properties as plain rows, and nothing of individuals."""
+        classes, properties = self.classes.values(), self.properties.values()
+        subclasses = tuple(sorted({(c.name, above) for c in classes for above in c.parents}))
+        definitions = tuple((c.name, *row) for c in classes for row in c.conditions)
+        inverses = [(p.name, its) for p in properties for its in p.inverses]
+        inverses += [(p, p.removeprefix(INVERSE_OF)) for _, p, _ in definitions if p.startswith(INVERSE_OF)]
+        placed = {name for row in subclasses for name in row} | {row[0] for row in definitions}
+        bare = [("class", name) for name in self.classes if name not in placed]
+        return Domain(
+            subclasses=subclasses,
+            definitions=definitions,
+            subproperties=tuple((p.name, above) for p in properties for above in p.parents),
+            inverses=tuple(sorted({*inverses})),
+            declared=(*bare, *((p.kind, p.name) for p in properties if p.kind != "quantity")),
+            units=tuple((p.name, p.si_unit) for p in properties if p.kind == "quantity"),
+        )
 
     def told_classes(self, names: tuple[str, ...]) -> tuple[str, ...]:
         """Return ``names`` and all their told superclasses, sorted."""

@@ -25,10 +25,15 @@ class Domain:
     subclasses: tuple[tuple[str, str], ...] = ()
     """(class, class above it), as told."""
     definitions: tuple[tuple[str, str, str], ...] = ()
-    """(class, property, filler) of classes that are defined by all of such rows: ``("WetGripper", "is", "Gripper")``,
-    ``("WetThing", "wet", "true")``, ``("LiquidContainer", "comprises", "Liquid")``."""
+    """(class, property, filler) of classes that are defined by all of such rows: ``("WetGripper", "is a", "Gripper")``,
+    ``("WetThing", "wet", "is true")``, ``("LiquidContainer", "comprises", "Liquid")``; an empty filler is anything.
+    What is no property or class has a space, as no name has."""
     subproperties: tuple[tuple[str, str], ...] = ()
-    """(property, property above it), as told."""
+    """(property, property above it), as told; of two that are the same each is above the other."""
+    inverses: tuple[tuple[str, str], ...] = ()
+    """(property, what says the same from the other end), as told; a symmetric one is its own."""
+    declared: tuple[tuple[str, str], ...] = ()
+    """(kind, name) of classes and properties, but quantities, of which no other row tells that they exist."""
     units: tuple[tuple[str, str], ...] = ()
     """(property, SI unit) of quantities."""
     unchecked: str = ""

@@ -63,7 +63,7 @@ def _domain(table: Any) -> Domain:
     """Return the domain whose rows these are; each has as many texts as its kind of row, and values may be numbers."""
     names = [each.name for each in fields(Domain)]
     # Older folders have no classes and units, and do not say whether it was checked: it was, or they would not be.
-    later = {"unchecked", "subclasses", "definitions", "subproperties", "units"}
+    later = {"unchecked", "subclasses", "definitions", "subproperties", "units", "inverses", "declared"}
     if not isinstance(table, dict) or {*later, *cast("dict[str, Any]", table)} != set(names):
         raise ValueError(f"{DOMAIN} must be an object with {', '.join(names)}")
     rows: dict[str, Any] = {**{name: [] for name in later - {"unchecked"}}, **cast("dict[str, Any]", table)}
@@ -76,6 +76,11 @@ def _domain(table: Any) -> Domain:
         kinds = (str,) * (count - 1) + ((str, int, float) if name == "values" else str,)
         if not isinstance(rows[name], list) or not all(_is_row(row, kinds) for row in rows[name]):
             raise ValueError(f"{DOMAIN}: {name} must be a list of rows of {count}")
+    if "declared" not in table:  # They call the parts of a definition what a property may be called.
+        rows["definitions"] = [
+            [name, "is a" if asked == "is" else asked, "is true" if filler == "true" else filler]
+            for name, asked, filler in rows["definitions"]
+        ]
     return Domain(**{name: tuple(tuple(row) for row in rows[name]) for name in columns}, unchecked=unchecked)
 
 

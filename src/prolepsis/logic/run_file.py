@@ -93,5 +93,11 @@ def _domain_rows(timeline: Timeline) -> Iterable[str]:
         yield f"definition({','.join(map(_atom, row))}).\n"
     for name, above in domain.subproperties:
         yield f"subproperty({_atom(name)},{_atom(above)}).\n"
+    for row in domain.inverses:
+        yield f"inverse({','.join(map(_atom, row))}).\n"
+    for kind, name in domain.declared:
+        yield f"named({_atom('class' if kind == 'class' else 'property')},{_atom(name)}).\n"
+        if kind == "relation":
+            yield f"declared(fluent,{_atom(name)},2).\n"
     for name, unit in domain.units:
         yield f"unit({_atom(name)},{_atom(unit)}).\n"

@@ -233,7 +233,7 @@ known(class, Name) :-
 known(property, Name) :-
     (   property(Name, _)
     ;   known_run(_, Run),
-        ( Run:value(_, Name, _) ; Run:unit(Name, _) )
+        property_of(Run, Name)
     ),
     !.
 known(quantity, Name) :-
@@ -261,6 +261,11 @@ class_of(Run, Name) :- Run:instance(_, Name).
 class_of(Run, Name) :- Run:subclass(Name, _).
 class_of(Run, Name) :- Run:subclass(_, Name).
 class_of(Run, Name) :- Run:definition(Name, _, _).
+class_of(Run, Name) :- Run:named(class, Name).
+
+property_of(Run, Name) :- Run:value(_, Name, _).
+property_of(Run, Name) :- Run:unit(Name, _).
+property_of(Run, Name) :- Run:named(property, Name).
 
 %   individual(+Run, ?Name)
 
@@ -335,7 +340,7 @@ candidate(individual, Name) =>
 candidate(class, Name) =>
     ( class(Name) ; known_run(_, Run), class_of(Run, Name) ).
 candidate(property, Name) =>
-    ( property(Name, _) ; known_run(_, Run), ( Run:value(_, Name, _) ; Run:unit(Name, _) ) ).
+    ( property(Name, _) ; known_run(_, Run), property_of(Run, Name) ).
 candidate(quantity, Name) =>
     ( candidate(property, Name) ; candidate(evidence, Name) ).
 candidate(evidence, Name) =>

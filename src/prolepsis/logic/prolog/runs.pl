@@ -11,7 +11,8 @@
         symmetric(Type)             those whose two arguments are alike
         declared(Kind, Type, Arity) what else may occur, as far as Python has been told
         instance/2, part/2, value/3, unit/2       domain knowledge
-        subclass/2, definition/3, subproperty/2   what is told of classes and properties
+        subclass/2, definition/3, subproperty/2, inverse/2, named/2      what is told of classes and properties
+        touched/1, changing/1, belonging/4, becomes/2                    when individuals are of which classes
 
     First and Second repeat the first two arguments of Term ([] when there are fewer), so that the
     just-in-time index finds them. When a run is loaded, its facts become static.
@@ -34,6 +35,7 @@
 :- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(chronicles).
+:- use_module(classes, [work_out_classes/1]).
 :- use_module(ticks).
 
 :- meta_predicate with_run(+, 0), add_chronicles(+, +, 4).
@@ -57,6 +59,12 @@ table(value/3).
 table(subclass/2).
 table(definition/3).
 table(subproperty/2).
+table(inverse/2).
+table(named/2).
+table(touched/1).
+table(changing/1).
+table(belonging/4).
+table(becomes/2).
 table(unit/2).
 
 %!  load_run(+Run:atom, +File) is det.
@@ -73,6 +81,7 @@ load_run(Run, File) :-
                        read_rows(In, Module, 0, _),
                        close(In)),
     index_spans(Module),
+    work_out_classes(Module),
     assertz(known_run(Run, Module)),
     add_chronicles(Run, chronicles, all).
 

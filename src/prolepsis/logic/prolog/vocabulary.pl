@@ -10,6 +10,7 @@
             parent/2,                   % ?Class, ?Parent
             defined_by/3,               % ?Class, ?Property, ?Filler
             property_parent/2,          % ?Property, ?Parent
+            property_inverse/2,         % ?Property, ?Inverse
             property/2                  % ?Property, ?Unit
           ]).
 
@@ -293,24 +294,31 @@ parent('YieldingBowl', 'Bowl').
 
 %   defined_by(Class, Property, Filler): what a defined class asks for, all of it, where that is a row each.
 
-defined_by('BrokenThing', broken, true).
-defined_by('BrokenThing', is, 'PhysicalObject').
-defined_by('DirtyThing', dirty, true).
-defined_by('DirtyThing', is, 'PhysicalObject').
+defined_by('BrokenThing', broken, 'is true').
+defined_by('BrokenThing', 'is a', 'PhysicalObject').
+defined_by('DirtyThing', dirty, 'is true').
+defined_by('DirtyThing', 'is a', 'PhysicalObject').
+defined_by('Gripper', 'is a', 'Hand').
+defined_by('Hand', 'is a', 'Gripper').
 defined_by('LiquidContainer', comprises, 'Liquid').
-defined_by('LiquidContainer', is, 'Container').
+defined_by('LiquidContainer', 'is a', 'Container').
 defined_by('Part', partOf, 'PhysicalObject').
-defined_by('SlipperyGripper', is, 'WetGripper').
+defined_by('SlipperyGripper', 'is a', 'WetGripper').
 defined_by('SlipperyGripper', wetWith, 'EggWhite').
-defined_by('WetGripper', is, 'Gripper').
-defined_by('WetGripper', is, 'WetThing').
-defined_by('WetThing', is, 'PhysicalObject').
-defined_by('WetThing', wet, true).
+defined_by('WetGripper', 'is a', 'Gripper').
+defined_by('WetGripper', 'is a', 'WetThing').
+defined_by('WetThing', 'is a', 'PhysicalObject').
+defined_by('WetThing', wet, 'is true').
 
 %   property_parent(Property, Parent): the properties, and those above them as told.
 
 property_parent(contains, comprises).
 property_parent(hasPart, comprises).
+
+%   property_inverse(Property, Inverse): what says the same from the other end, as told.
+
+property_inverse(partOf, hasPart).
+property_inverse(supports, on).
 
 %   property(Property, Unit): what individuals have; the unit of what is no quantity is ''.
 
