@@ -14,6 +14,8 @@ from prolepsis.knowledge import KnowledgeBase
 from prolepsis.knowledge.vocabulary import Vocabulary
 from prolepsis.log.evidence_names import EVIDENCE_UNITS
 from prolepsis.log.fact_types import FactType
+from prolepsis.log.outcomes import OUTCOMES
+from prolepsis.logic.unknown_names import OTHERWISE
 from prolepsis.terms.terms import format_atom
 
 FILE = Path(__file__).parents[1] / "src/prolepsis/logic/prolog/vocabulary.pl"
@@ -31,14 +33,16 @@ HEAD = """\
             defined_by/3,               % ?Class, ?Property, ?Filler
             property_parent/2,          % ?Property, ?Parent
             property_inverse/2,         % ?Property, ?Inverse
-            property/2                  % ?Property, ?Unit
+            property/2,                 % ?Property, ?Unit
+            allowed_value/2             % ?Name, ?Value
           ]).
 """
 
 
 def vocabulary_text() -> str:
     """Return the text of the Prolog file."""
-    vocabulary = KnowledgeBase.load().vocabulary
+    knowledge = KnowledgeBase.load()
+    vocabulary = knowledge.vocabulary
     # What actions are as events is known once they have been imported.
     assert programs.ACTIONS
     sections = (
@@ -64,6 +68,10 @@ def vocabulary_text() -> str:
             "property(Property, Unit): what individuals have; the unit of what is no quantity is ''.",
             _rows("property", ((entry.name, entry.si_unit) for entry in vocabulary.properties.values())),
         ),
+        (
+            "allowed_value(Name, Value): the values of a property or of evidence, where there are few.",
+            _rows("allowed_value", _values(knowledge)),
+        ),
     )
     return HEAD + "".join(f"\n%   {told}\n\n{''.join(rows)}" for told, rows in sections)
 
@@ -76,11 +84,20 @@ def _rows(name: str, rows: Iterable[tuple[str, ...]]) -> Iterator[str]:
 def _facts(vocabulary: Vocabulary) -> Iterator[str]:
     types = dict(fact_types())
     for entry in vocabulary.properties.values():
-        if entry.kind == "relation":
+        if entry.kind == "relation" and entry.name not in OTHERWISE:
             types.setdefault(entry.name, FactType(name=entry.name, kind="fluent", arguments=("", ""), doc=""))
     for name, known in sorted(types.items()):
         for arity in known.arities:
             yield f"fact_type({format_atom(name)}, {arity}, {known.kind}).\n"
+
+
+def _values(knowledge: KnowledgeBase) -> Iterator[tuple[str, str]]:
+    yield from (("outcome", outcome) for outcome in OUTCOMES)
+    for entry in knowledge.vocabulary.properties.values():
+        if entry.kind == "truth":
+            yield from ((entry.name, value) for value in ("true", "false"))
+    shapes = (name for name, classes in knowledge.situation.classes.items() if "ShapeKind" in classes)
+    yield from (("shape", name) for name in shapes)
 
 
 def _classes(vocabulary: Vocabulary) -> Iterator[str]:

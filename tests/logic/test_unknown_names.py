@@ -15,7 +15,7 @@ from prolepsis.log.evidence_names import EVIDENCE_UNITS
 from prolepsis.log.timeline import Fact, Timeline, make_timeline
 from prolepsis.logic.process import PROLOG_FILES
 from prolepsis.logic.session import Session
-from prolepsis.terms.errors import GoalError, InputError
+from prolepsis.terms.errors import GoalError, InputError, Note
 
 ROOT = Path(__file__).parents[2]
 
@@ -78,6 +78,16 @@ def session() -> Iterator[Session]:
         ("argsOf(brocken(egg1), [egg1])", "no fluent or event brocken/1"),
         ("in(rum1, holds(broken(X), T))", "no run named rum1 .*; did you mean run1"),
         ("fact(R, I, brocken, A, S, E)", "no fluent or event named brocken .*; did you mean broken"),
+        ("fact(R, I, broken, [eg1], S, E)", "no individual named eg1 .*; did you mean egg1"),
+        ("fact(R, I, T, [egg1, eg1|More], S, E)", "no individual named eg1 .*; did you mean egg1"),
+        ("value(egg1, shape, elipsoid)", "no value of shape named elipsoid .*; did you mean ellipsoid"),
+        ("value(egg1, wet, yes)", "no value of wet named yes .*; known: false, true"),
+        ("evidence(E, T, outcome, dropt)", "no value of outcome named dropt .*; known: done, dropped"),
+        ("value(egg1, mass, heavy)", r"^mass is a number \[kg\], not heavy$"),
+        ('value(egg1, friction, "0.4")', '^friction is a number, not "0.4"$'),
+        ("value(egg1, on, X)", r"^on is a relation and no value; ask holds\(on\(X, Y\), T\)$"),
+        ("holds(hasPart(egg1, X), T)", r"^no fluent hasPart/2; ask has_part\(Whole, Part\)$"),
+        ("holds(shape(egg1, X), T)", r"^no fluent shape/2; ask value\(Thing, shape, Shape\)$"),
         # Wherever it stands, and whether or not it is reached.
         ("\\+ holds(broken(egg2), T)", "no individual named egg2"),
         ("fail, holds(brocken(X), T)", "no fluent brocken/1"),
@@ -91,6 +101,8 @@ def session() -> Iterator[Session]:
         ("O = eggg1, occurs(E, T), objOf(E, O)", "no individual named eggg1"),
         ("atom_concat(forse, '', N), evidence(broken(X), T, N, V)", "no evidence named forse"),
         ("maplist([C]>>instance_of(egg1, C), ['Egg', 'Eggg'])", "no class named 'Eggg'"),
+        ("atom_concat(elip, soid, S), value(egg1, shape, S)", "no value of shape named elipsoid"),
+        ("member(P, [mass, on]), value(eggshell1, P, V)", "on is a relation and no value"),
     ],
 )
 def test_what_nothing_is_called_is_an_error(session: Session, goal: str, message: str) -> None:
@@ -120,6 +132,12 @@ def test_what_nothing_is_called_is_an_error(session: Session, goal: str, message
         "argsOf(broken(egg1), [whatever])",  # lists of arguments are matched, as they are
         "occurs(E, T), eventT(E, grasping), argsOf(E, [leftGripper, force99])",
         "holds(broken(7), T)",
+        "fact(R, I, broken, [table1, left, 3], S, E)",
+        "value(egg1, shape, sphere)",
+        "value(egg1, colour, mauve)",
+        "value(egg1, mass, 0.07)",
+        "evidence(E, T, outcome, dropped)",
+        "evidence(E, T, reason, whatever)",
     ],
 )
 def test_no_is_the_answer_where_all_names_are_known(session: Session, goal: str) -> None:
@@ -238,6 +256,40 @@ def test_an_interval_is_not_compared_as_if_it_were_a_number(session: Session, go
 def test_what_is_no_time_is_not_denied(session: Session, goal: str, time: str) -> None:
     with pytest.raises(GoalError, match="not an interval: .*; an interval is Start-End"):
         session.ask(RUN1, goal.format(time))
+
+
+@pytest.mark.parametrize(
+    ("goal", "told"),
+    [
+        ("holds(F, T), fluentT(F, Wet)", "Wet is a variable and stands for any fluent; write wet for one"),
+        ("occurs(E, T), eventT(E, Picking_Up)", "Picking_Up is a variable and stands for any event; write picking_up"),
+        ("occurs(E, T), event(E, SnappingOff)", "SnappingOff is .*; write snapping_off for one"),
+        ("holds(Broken, T)", r"Broken is a variable and stands for any fluent; write broken\(_\) for one"),
+        ("instance_of(X, Egg)", "Egg is a variable and stands for any class; write 'Egg' for one"),
+        ("value(egg1, Mass, 0.06)", "Mass is a variable and stands for any property; write mass for one"),
+        ("evidence(F, T, Force, 44.0)", "Force is a variable and stands for any evidence; write force for one"),
+        ("findall(X, instance_of(X, Egg, _), L)", "Egg is a variable"),
+    ],
+)
+def test_a_known_name_with_a_capital_is_told_to_be_a_variable(session: Session, goal: str, told: str) -> None:
+    with pytest.warns(Note, match=told):
+        session.ask(RUN1, goal)
+
+
+@pytest.mark.parametrize(
+    "goal",
+    [
+        "holds(F, T), fluentT(F, Type)",
+        "holds(Broken, T), fluentT(Broken, broken)",
+        "holds(broken(Egg1), T)",
+        "instance_of(Egg, Class)",
+        "instance_of(egg1, Egg), Egg = 'Egg'",
+        "evidence(broken(egg1), T, force, Force)",
+        "holds(F, T), fluentT(F, _Wet)",
+    ],
+)
+def test_no_word_is_lost_about_a_variable_that_is_meant(session: Session, goal: str) -> None:
+    assert session.ask(RUN1, goal)
 
 
 def test_an_instant_and_the_ends_of_an_interval_are_compared(session: Session) -> None:

@@ -11,9 +11,9 @@ _WORDS = """
 OPERATORS = frozenset(_WORDS.split())
 """Words that may stand before a bracket with a space between: ``X is (1 + 2) mod (3)``."""
 
-_SKIPPED = r"0'(?:\\.|''|.)|'(?:\\.|''|[^'\\])*'|\"(?:\\.|\"\"|[^\"\\])*\"|`(?:\\.|[^`\\])*`|%[^\n]*|/\*.*?\*/"
+SKIPPED = r"0'(?:\\.|''|.)|'(?:\\.|''|[^'\\])*'|\"(?:\\.|\"\"|[^\"\\])*\"|`(?:\\.|[^`\\])*`|%[^\n]*|/\*.*?\*/"
 """Characters, quoted texts and comments, in which nothing is changed."""
-_TOKEN = re.compile(rf"(?P<skipped>{_SKIPPED})|(?P<word>\b[a-z]\w*)(?P<space>\s+)\(|\w+", re.DOTALL)
+_TOKEN = re.compile(rf"(?P<skipped>{SKIPPED})|(?P<word>\b[a-z]\w*)(?P<space>\s+)\(|\w+", re.DOTALL)
 
 
 def pasted(goal: str) -> str:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import difflib
-import re
 
 from prolepsis.log.timeline import Timeline
 from prolepsis.logic.process import STACK_LIMIT
-from prolepsis.logic.unknown_names import unknown_name
+from prolepsis.logic.syntax import syntax_error
+from prolepsis.logic.unknown_names import OTHERWISE, unknown_name
 from prolepsis.terms.errors import GoalError, GoalLimitError, brief
 
 PERMITTED = (
@@ -18,23 +18,8 @@ RELATIONS = (
     "before, after, meets, met_by, overlaps, overlapped_by, starts, started_by, during, contains, "
     "finishes, finished_by, equals"
 )
-SYNTAX = {
-    "operator expected": "two terms stand side by side; between them a comma, an operator or a bracket is missing",
-    "operator clash": "these operators cannot be combined without brackets",
-    "operator balance": "an operator lacks what it should stand between",
-    "end of clause": "the goal ends too early, or a full stop stands within it",
-    "end of clause expected": "the goal should end here; is an opening bracket missing?",
-    "cannot start term": "no term can begin here; a bracket or a comma is too many",
-    "illegal start of term": "no term can begin here; a bracket or a comma is too many",
-    "end of file in quoted": "a quoted name has no closing quote",
-    "end of file in block comment": "a comment has no closing */",
-    "undefined char escape": "no such escape after a backslash; a backslash itself is written twice",
-    "punct": "a bracket or a comma stands where a term should",
-}
-"""What SWI-Prolog's messages mean."""
 SHOWN = 120
 """Characters of a goal that a message shows."""
-_CALL = re.compile(r"(\w+)\s*\(")
 
 
 def shown(goal: str) -> str:
@@ -55,7 +40,7 @@ def refusal(status: str, body: str, goal: str, time_limit: float, timeline: Time
     match status:
         case "syntax":
             position, message = body.split("\n", 1)
-            return GoalError(_syntax(int(position), message, goal))
+            return GoalError(f"{syntax_error(int(position), message, goal)}: {shown(goal)}")
         case "predicate":
             name, known = body.split("\n", 1)
             return GoalError(f"unknown predicate {brief(name)}; {_nearest(name, known.split(chr(9)), timeline)}")
@@ -73,6 +58,12 @@ def refusal(status: str, body: str, goal: str, time_limit: float, timeline: Time
             )
         case "unbound":
             return GoalError(f"not permitted: a goal that is known only when the query runs: {shown(goal)}")
+        case "related":
+            asked = OTHERWISE.get(body, f"holds({brief(body)}(X, Y), T)")
+            return GoalError(f"{brief(body)} is a relation and no value; ask {asked}")
+        case "number":
+            name, unit, value = body.split("\n")
+            return GoalError(f"{name} is a number{f' [{unit}]' if unit != '1' else ''}, not {brief(value)}")
         case "compared":
             return GoalError(
                 f"{brief(body)} gives an interval and no number to compare; write S-E for it, and compare S or E"
@@ -93,22 +84,6 @@ def refusal(status: str, body: str, goal: str, time_limit: float, timeline: Time
             return GoalError(f"{brief(body.strip() or status, 120)}: {shown(goal)}")
 
 
-def _syntax(position: int, message: str, goal: str) -> str:
-    position = min(position, len(goal))
-    line, column = goal.count("\n", 0, position) + 1, position - (goal.rfind("\n", 0, position) + 1) + 1
-    at = f"column {column}" if "\n" not in goal else f"line {line}, column {column}"
-    meaning = next((text for known, text in SYNTAX.items() if message.startswith(known)), "")
-    call = _CALL.search(goal, max(0, goal.rfind("(", 0, position) + 1))
-    if message == "operator expected" and call and call.end() - 2 <= position < call.end():
-        name = call.group(1)
-        if name[0].isupper() or name[0] == "_":
-            small = name.lstrip("_")
-            meaning = f"a predicate's name begins with a small letter, and {name} is a variable"
-            meaning += f"; write {small[0].lower()}{small[1:]}(" if small else ""
-    told = f"{message}: {meaning}" if meaning else message
-    return f"syntax error at {at}: {told}: {shown(goal)}"
-
-
 def _nearest(name: str, known: list[str], timeline: Timeline) -> str:
     plain = name.rpartition("/")[0]
     types = {fact.type: fact.kind for fact in timeline.facts}
@@ -119,6 +94,8 @@ def _nearest(name: str, known: list[str], timeline: Timeline) -> str:
         return f"{plain} is a type of {types[plain]}; ask {asked}({pattern}, T)"
     if plain in ("(:-)", "(-->)"):
         return "a query is one goal; rules are added as chronicles, see docs/queries.md"
+    if plain == "('|')":
+        return "either of two goals is asked with ;"
     near = difflib.get_close_matches(name, known, n=1, cutoff=0.75)
     if near:
         return f"did you mean {near[0]}?"

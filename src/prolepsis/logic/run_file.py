@@ -11,6 +11,7 @@ from prolepsis.log.asserted import with_asserted
 from prolepsis.log.fact_types import SYMMETRIC, fact_types
 from prolepsis.log.near import MARGIN
 from prolepsis.log.timeline import Argument, Fact, Timeline
+from prolepsis.logic.unknown_names import OTHERWISE
 from prolepsis.terms.terms import format_atom, format_value
 from prolepsis.terms.ticks import ticks_of
 
@@ -96,8 +97,8 @@ def _domain_rows(timeline: Timeline) -> Iterable[str]:
     for row in domain.inverses:
         yield f"inverse({','.join(map(_atom, row))}).\n"
     for kind, name in domain.declared:
-        yield f"named({_atom('class' if kind == 'class' else 'property')},{_atom(name)}).\n"
-        if kind == "relation":
+        yield f"named({kind if kind in ('class', 'relation') else 'property'},{_atom(name)}).\n"
+        if kind == "relation" and name not in OTHERWISE:
             yield f"declared(fluent,{_atom(name)},2).\n"
     for name, unit in domain.units:
         yield f"unit({_atom(name)},{_atom(unit)}).\n"

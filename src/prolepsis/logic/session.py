@@ -16,6 +16,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from prolepsis.log.timeline import Timeline
+from prolepsis.logic.capitals import variables_note
 from prolepsis.logic.near_threshold import near_note
 from prolepsis.logic.open_ends import open_note
 from prolepsis.logic.pasting import pasted
@@ -169,9 +170,14 @@ class Session:
         if status == "cut":
             what = "a value is too large or too deep to be told whole; ... stands for the rest"
             warnings.warn(f"{what}: {shown(goal)}", Note, 3)
+        read, _, body = body.partition("\n")
         answers = _answers(body, time.monotonic() + time_limit + GRACE, goal)
-        notes = [open_note(answers, open_ends, goal), "" if answers else undone_note(timeline, goal)]
-        notes.append(near_note(timeline, answers, goal))
+        notes = [
+            variables_note(read, goal),
+            open_note(answers, open_ends, goal),
+            "" if answers else undone_note(timeline, goal),
+            near_note(timeline, answers, goal),
+        ]
         for note in filter(None, notes):
             warnings.warn(note, Note, 3)
         return answers

@@ -17,6 +17,12 @@ WHAT = {
     "quantity": "property or evidence",
     "run": "run",
 }
+OTHERWISE = {
+    "hasPart": "has_part(Whole, Part)",
+    "partOf": "has_part(Whole, Part)",
+    "shape": "value(Thing, shape, Shape)",
+}
+"""Relations of the ontology that are no facts, and what tells of them."""
 _FACT = re.compile(r"(.*)/(\d+)-(fluent|event)")
 
 
@@ -47,6 +53,8 @@ def _unknown_fact(kind: str, name: str, facts: list[tuple[str, int, str]]) -> st
     for other, count, its in facts:
         if other == plain and str(count) == arity:
             return f"{plain} is {_a(its)}, no {what}; ask {PREDICATES[its]}({pattern(plain, count)}, T)"
+    if plain in OTHERWISE:
+        return f"no {what} {brief(name)}; ask {OTHERWISE[plain]}"
     same = [(count, its) for other, count, its in facts if other == plain and kind in (its, "fact")]
     if same:
         told = " or ".join(pattern(plain, count) for count, _ in same)

@@ -1,8 +1,9 @@
 /*  Answers: a goal in text is read, checked, put in order, run within its limits, and answered in text.
 
     A reply is lines: first "ok" ("cut" where a value was too large or deep to be told whole) and, after tabs, what still
-    went on when the log ended and bears on the goal; or what went wrong; then one line for each distinct answer, with the values of the variables separated by tabs, as terms that can be read
-    back.
+    went on when the log ended and bears on the goal; or what went wrong. Then known names that were read as variables, in
+    threes: variable, kind and name; the variables; and one line for each distinct answer, with the values of the
+    variables separated by tabs, as terms that can be read back.
 */
 
 :- module(answers,
@@ -39,13 +40,26 @@ answers(Run, Text, Limit, Seconds, Lines) :-
     pairs(Outer, Names, Values),
     nb_setval(prolepsis_cut, "ok"),
     nb_setval(prolepsis_told, 0),
-    call_with_time_limit(Seconds, found(Run, Goal, Values, Limit, Answers)),
+    call_with_time_limit(Seconds, ( found(Run, Goal, Values, Limit, Answers), read_as_variables(Goal, Bindings, Read) )),
     nb_getval(prolepsis_cut, Status),
     open_ends(Run, Goal, Ends),
     atomic_list_concat([Status|Ends], '\t', First),
+    atomic_list_concat(Read, '\t', Second),
     atomic_list_concat(Names, '\t', Header),
     atomic_list_concat([Header|Answers], '\n', Body),
-    Lines = [First, "\n", Body].
+    Lines = [First, "\n", Second, "\n", Body].
+
+read_as_variables(Goal, Bindings, Read) :-
+    findall([Variable, Of, Text],
+            ( read_as_variable(Goal, Bindings, Variable, Kind, Name),
+              named_kind(Kind, Of),
+              short_text(Name, Text) ),
+            Found),
+    append(Found, Read).
+
+named_kind(type(Kind), Of) => Of = Kind.
+named_kind(value(Name), Of) => atom_concat('value of ', Name, Of).
+named_kind(Kind, Of) => Of = Kind.
 
 found(Run, Goal0, Values, Limit, Answers) :-
     check_goal(Goal0),
@@ -268,11 +282,14 @@ refusal(unknown_predicate(PI), ["predicate\n", Text, "\n", Known]) :-
     sort(Names, Sorted),
     atomic_list_concat(Sorted, '\t', Known).
 refusal(unknown_name(Kind, Named), ["name\n", Of, "\n", Text, "\n", Known]) :-
-    ( Kind = type(Of) -> true ; Of = Kind ),
+    named_kind(Kind, Of),
     short_text(Named, Text),
     known_names(Kind, Names),
     findall(Each, ( member(Known0, Names), format(atom(Each), '~q', [Known0]) ), All),
     atomic_list_concat(All, '\t', Known).
+refusal(no_value(Name), ["related\n", Name]).
+refusal(no_number(Name, Unit, Value), ["number\n", Name, "\n", Unit, "\n", Text]) :-
+    short_text(Value, Text).
 refusal(compared_interval(Reader), ["compared\n", Text]) :-
     short_text(Reader, Text).
 refusal(unknown_relation(Name), ["relation\n", Text]) :-

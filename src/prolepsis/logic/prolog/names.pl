@@ -10,10 +10,12 @@
             check_names/1,              % +Goal
             check_found_nothing/1,      % +Goal
             known_names/2,              % +Kind, -Names
+            read_as_variable/5,         % +Goal, +Bindings, -Variable, -Kind, -Name
             declare_event/1             % +Event
           ]).
 :- use_module(library(lists)).
 :- use_module(library(apply)).
+:- use_module(library(occurs)).
 :- use_module(chronicles).
 :- use_module(guard).
 :- use_module(runs).
@@ -25,7 +27,8 @@
 %!  takes(?Form) is nondet.
 %
 %   What the arguments of the predicates on timelines and individuals must be: ? for any term, else the kind of what is
-%   named; fact is a fluent or an event, and type(Kind) the name of its type in either spelling.
+%   named; fact is a fluent or an event, type(Kind) the name of its type in either spelling, individuals a list of them,
+%   and value(N) a value of what the Nth argument names.
 
 takes(holds(fluent, ?)).
 takes(holds_at(fluent, ?)).
@@ -36,15 +39,15 @@ takes(event(event, type(event))).
 takes(eventT(event, type(event))).
 takes(argsOf(fact, ?)).
 takes(objOf(fact, individual)).
-takes(evidence(fact, ?, evidence, ?)).
-takes(fact(run, ?, type(fact), ?, ?, ?)).
+takes(evidence(fact, ?, evidence, value(3))).
+takes(fact(run, ?, type(fact), individuals, ?, ?)).
 takes(in(run, ?)).
 takes(ongoing(fact)).
 takes(near_miss(fact, ?, ?)).
 takes(instance_of(individual, class)).
 takes(instance_of(individual, class, ?)).
 takes(has_part(individual, individual)).
-takes(value(individual, property, ?)).
+takes(value(individual, property, value(2))).
 takes(subclass_of(class, class)).
 takes(unit(quantity, ?)).
 takes(matching(?, ?, ?, type(fact), individual)).
@@ -53,40 +56,81 @@ takes(matching(?, ?, ?, type(fact), individual)).
 %
 %   Check what Goal, which the guard has let pass, and the goals in it name.
 %
-%   @error refused(unknown_name(Kind, Name))
+%   @error refused(unknown_name(Kind, Name)), refused(no_number(Property, Unit, Value)), refused(no_value(Relation))
 
-check_names(Goal), var(Goal) => true.
-check_names(_/Lambda) => check_names(Lambda).
-check_names(Parameters>>Body), is_list(Parameters) => check_names(Body).
-check_names(_^Goal) => check_names(Goal).
-check_names(Goal), callable(Goal) =>
+check_names(Goal) :-
+    forall(( named(Goal, Kind, Argument), nonvar(Argument) ),
+           check_name(Kind, Argument)).
+
+%   named(+Goal, -Kind, -Argument): Argument in Goal, or in a goal in it, is what a Kind of thing is named by.
+
+named(Goal, _, _), var(Goal) => fail.
+named(_/Lambda, Kind, Argument) => named(Lambda, Kind, Argument).
+named(Parameters>>Body, Kind, Argument), is_list(Parameters) => named(Body, Kind, Argument).
+named(_^Goal, Kind, Argument) => named(Goal, Kind, Argument).
+named(Goal, Kind, Argument), callable(Goal) =>
+    (   argument(Goal, Kind, Argument)
+    ;   functor(Goal, Name, Arity),
+        Arity > 0,
+        functor(Calls, Name, Arity),
+        may(Calls),
+        arg(N, Calls, Way),
+        arg(N, Goal, Inner),
+        called(Way, Inner, Called),
+        named(Called, Kind, Argument)
+    ).
+named(_, _, _) => fail.
+
+argument(Goal, Kind, Argument) :-
     functor(Goal, Name, Arity),
     functor(Form, Name, Arity),
-    (   takes(Form)
-    ->  check_arguments(Arity, Form, Goal)
-    ;   true
-    ),
-    (   functor(Calls, Name, Arity),
-        may(Calls)
-    ->  check_called(Arity, Calls, Goal)
-    ;   true
-    ).
-check_names(_) => true.
-
-check_called(0, _, _) :- !.
-check_called(N, Calls, Goal) :-
-    arg(N, Calls, Kind),
+    takes(Form),
+    arg(N, Form, Kind0),
+    Kind0 \== (?),
     arg(N, Goal, Argument),
-    (   Kind == (^)
-    ->  check_names(Argument)
-    ;   \+ integer(Kind)
+    (   Kind0 = value(M)
+    ->  arg(M, Goal, Of),
+        atom(Of),
+        Kind = value(Of)
+    ;   Kind = Kind0
+    ).
+
+called(^, Goal, Called) =>
+    Called = Goal.
+called(Extra, Closure, Called), integer(Extra) =>
+    (   extended(Closure, Extra, Called)
     ->  true
-    ;   extended(Argument, Kind, Called)
-    ->  check_names(Called)
-    ;   check_names(Argument)
-    ),
-    Rest is N-1,
-    check_called(Rest, Calls, Goal).
+    ;   Called = Closure
+    ).
+called(_, _, _) =>
+    fail.
+
+%!  read_as_variable(+Goal, +Bindings, -Variable, -Kind, -Name) is nondet.
+%
+%   True if Variable stands only once in Goal, where a Kind is named, and is spelt as the Name of one but for capitals.
+
+read_as_variable(Goal, Bindings, Variable, Kind, Name) :-
+    member(Variable=Value, Bindings),
+    var(Value),
+    occurrences_of_var(Value, Goal, 1),
+    once(( named(Goal, Kind, Argument), Argument == Value )),
+    \+ memberchk(Kind, [individual, individuals, run, value(_)]),
+    folded(Variable, Folded),
+    once(( candidate(Kind, Known), named_as(Known, Kind, Name), functor(Name, Plain, _), folded(Plain, Folded) )).
+
+%   A fact is named by a term.
+
+named_as(Name/Arity-Is, Kind, Term), fact_kind(Kind) =>
+    ( Kind == fact ; Kind == Is ),
+    functor(Term, Name, Arity).
+named_as(Name, _, Known) =>
+    Known = Name.
+
+folded(Name, Folded) :-
+    atom(Name),
+    atomic_list_concat(Words, '_', Name),
+    atomic_list_concat(Words, Joined),
+    downcase_atom(Joined, Folded).
 
 %   A closure is called with Extra more arguments.
 
@@ -105,20 +149,13 @@ extended(Closure, Extra, Called) :-
 %   Fail, once what Goal names is sure to be known.
 
 check_found_nothing(Goal) :-
-    functor(Goal, Name, Arity),
-    functor(Form, Name, Arity),
-    takes(Form),
-    check_arguments(Arity, Form, Goal),
-    check_arities(Arity, Form, Goal),
-    !,
+    forall(( argument(Goal, Kind, Argument), nonvar(Argument) ), check_name(Kind, Argument)),
+    forall(argument(Goal, Kind, Argument), check_arity(Kind, Argument)),
     fail.
 
 %   A fact that occurs with other arguments only has not been asked for: an action has those that its plan gives it.
 
-check_arities(0, _, _) :- !.
-check_arities(N, Form, Goal) :-
-    arg(N, Form, Kind),
-    arg(N, Goal, Term),
+check_arity(Kind, Term) :-
     (   fact_kind(Kind),
         callable(Term),
         functor(Term, Name, Arity),
@@ -126,25 +163,12 @@ check_arities(N, Form, Goal) :-
         \+ occurs_with(Kind, Name, Arity)
     ->  unknown(occurring, Name/Arity)
     ;   true
-    ),
-    Rest is N-1,
-    check_arities(Rest, Form, Goal).
+    ).
 
 occurs_with(Kind, Name, Arity) :-
     of_kind(Kind, Known),
     known_run(_, Run),
     occurring(Run, Known, Name, Arity).
-
-check_arguments(0, _, _) :- !.
-check_arguments(N, Form, Goal) :-
-    arg(N, Form, Kind),
-    arg(N, Goal, Argument),
-    (   ( Kind == (?) ; var(Argument) )
-    ->  true
-    ;   check_name(Kind, Argument)
-    ),
-    Rest is N-1,
-    check_arguments(Rest, Form, Goal).
 
 check_name(Kind, Term), fact_kind(Kind) =>
     (   callable(Term),
@@ -156,12 +180,64 @@ check_name(Kind, Term), fact_kind(Kind) =>
         unknown(Kind, Name/Arity)
     ;   unknown(Kind, Term)
     ).
+check_name(individuals, List) =>
+    forall(( listed(List, Each), ( atom(Each) ; string(Each) ) ), check_name(individual, Each)).
+check_name(property, Name), related(Name) =>
+    throw(refused(no_value(Name))).
+check_name(value(Of), Value) =>
+    check_value(Of, Value).
 check_name(Kind, Name) =>
     (   atom(Name),
         known(Kind, Name)
     ->  true
     ;   unknown(Kind, Name)
     ).
+
+%   listed(+List, -Each): of a list that may end in a variable; [] is none.
+
+listed(List, Each) :-
+    nonvar(List),
+    List = [First|Rest],
+    ( Each = First ; listed(Rest, Each) ).
+
+%   Where there are few, a value is one of them; and a quantity is a number.
+
+check_value(Of, Value) :-
+    (   allowed_value(Of, _)
+    ->  ( known(value(Of), Value) -> true ; unknown(value(Of), Value) )
+    ;   ( atom(Value) ; string(Value) ),
+        quantity(Of, Unit),
+        \+ stored_value(Of, Value)
+    ->  throw(refused(no_number(Of, Unit, Value)))
+    ;   true
+    ).
+
+%   related(+Of): Of is what a fact tells, and no value.
+
+related(Of) :-
+    atom(Of),
+    \+ allowed_value(Of, _),
+    \+ stored_value(Of, _),
+    (   property(Of, ''),
+        fact_type(Of, 2, fluent)
+    ;   known_run(_, Run),
+        Run:named(relation, Of)
+    ),
+    !.
+
+quantity(Of, Unit) :-
+    property(Of, Unit),
+    Unit \== '',
+    !.
+quantity(Of, Unit) :-
+    known_run(_, Run),
+    Run:unit(Of, Unit),
+    !.
+
+stored_value(Of, Value) :-
+    known_run(_, Run),
+    ( Run:value(_, Of, Value) ; Run:proof(_, Of, Value) ),
+    !.
 
 fact_kind(fluent).
 fact_kind(event).
@@ -224,6 +300,9 @@ known(individual, Name) :-
 known(individual, Name) :-
     declared_name(Name),
     !.
+known(value(Of), Value) :-
+    ( allowed_value(Of, Value) ; stored_value(Of, Value) ),
+    !.
 known(class, Name) :-
     (   class(Name)
     ;   known_run(_, Run),
@@ -266,6 +345,7 @@ class_of(Run, Name) :- Run:named(class, Name).
 property_of(Run, Name) :- Run:value(_, Name, _).
 property_of(Run, Name) :- Run:unit(Name, _).
 property_of(Run, Name) :- Run:named(property, Name).
+property_of(Run, Name) :- Run:named(relation, Name).
 
 %   individual(+Run, ?Name)
 
@@ -337,6 +417,8 @@ candidate(individual, Name) =>
         individual(Run, Name),
         atom(Name)
     ).
+candidate(value(Of), Value) =>
+    allowed_value(Of, Value).
 candidate(class, Name) =>
     ( class(Name) ; known_run(_, Run), class_of(Run, Name) ).
 candidate(property, Name) =>

@@ -11,7 +11,8 @@
             defined_by/3,               % ?Class, ?Property, ?Filler
             property_parent/2,          % ?Property, ?Parent
             property_inverse/2,         % ?Property, ?Inverse
-            property/2                  % ?Property, ?Unit
+            property/2,                 % ?Property, ?Unit
+            allowed_value/2             % ?Name, ?Value
           ]).
 
 %   fact_type(Name, Arity, Kind): fluents, asserted relations among them, and events.
@@ -45,7 +46,6 @@ fact_type(flowingOut, 2, event).
 fact_type(grasping, 3, event).
 fact_type(grasping, 4, event).
 fact_type(grasping, 5, event).
-fact_type(hasPart, 2, fluent).
 fact_type(hitting, 3, event).
 fact_type(hitting, 4, event).
 fact_type(hitting, 5, event).
@@ -57,7 +57,6 @@ fact_type(lookingAt, 2, event).
 fact_type(moving, 1, event).
 fact_type(on, 2, fluent).
 fact_type(openingGripper, 1, event).
-fact_type(partOf, 2, fluent).
 fact_type(peeling, 4, event).
 fact_type(peeling, 5, event).
 fact_type(pouring, 3, event).
@@ -76,7 +75,6 @@ fact_type(reaching, 4, event).
 fact_type(reaching, 5, event).
 fact_type(releasing, 1, event).
 fact_type(replaying, 2, event).
-fact_type(shape, 2, fluent).
 fact_type(spilled, 1, fluent).
 fact_type(spilling, 1, event).
 fact_type(splitting, 4, event).
@@ -401,3 +399,35 @@ property(yaw, rad).
 property(yieldStress, 'Pa').
 property(youngsModulus, 'Pa').
 property(z, m).
+
+%   allowed_value(Name, Value): the values of a property or of evidence, where there are few.
+
+allowed_value(broken, false).
+allowed_value(broken, true).
+allowed_value(dirty, false).
+allowed_value(dirty, true).
+allowed_value(lid, false).
+allowed_value(lid, true).
+allowed_value(outcome, done).
+allowed_value(outcome, dropped).
+allowed_value(outcome, in_collision).
+allowed_value(outcome, missed).
+allowed_value(outcome, not_graspable).
+allowed_value(outcome, not_held).
+allowed_value(outcome, not_reached).
+allowed_value(outcome, timed_out).
+allowed_value(outcome, unfinished).
+allowed_value(outcome, unreachable).
+allowed_value(shape, articulated).
+allowed_value(shape, bowl).
+allowed_value(shape, box).
+allowed_value(shape, cup).
+allowed_value(shape, cylinder).
+allowed_value(shape, ellipsoid).
+allowed_value(shape, mesh).
+allowed_value(shape, openBox).
+allowed_value(shape, parallelGripper).
+allowed_value(shape, plane).
+allowed_value(shape, sphere).
+allowed_value(wet, false).
+allowed_value(wet, true).
