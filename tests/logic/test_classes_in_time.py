@@ -221,3 +221,12 @@ def test_older_folders_name_parts_of_definitions_otherwise(run: Timeline, tmp_pa
     table["definitions"] = [["WetThing", "is", "PhysicalObject"], ["WetThing", "wet", "true"]]
     (tmp_path / "domain.json").write_text(json.dumps(table))
     assert when(read_timeline_files(tmp_path), "egg1", "WetThing") == ["0.6-1.0", "1.5-2.0"]
+
+
+def test_what_a_definition_asks_for_does_not_end_with_it() -> None:
+    kinds = ("Container", "LiquidContainer", "PhysicalObject")
+    domain = Domain(instances=(("liq1", "Liquid"), *(("jar1", kind) for kind in kinds)))
+    facts = [fluent("contains", "jar1", "liq1", start=0.0, end=0.5)]
+    run = make_timeline(facts, dt=0.001, duration=2.0, domain=domain)
+    assert when(run, "jar1", "LiquidContainer") == ["0.0-0.5"]
+    assert when(run, "jar1", "Container") == when(run, "jar1", "PhysicalObject") == ["0.0-2.0"]

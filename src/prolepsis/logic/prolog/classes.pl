@@ -109,11 +109,13 @@ found(Key, Assoc, List) :-
     ).
 
 %   constant(+Run, +Met, +Touched, +Classes, -Constant): of Classes, the members that no fluent takes out, as an assoc of
-%   lists Individual-Spans: those told, unless a fluent tells at the start of what they are, or what they are follows from.
+%   lists Individual-Spans: those told, unless a fluent tells at the start of what they are, or what they are follows from
+%   such a class. What a definition asks for does not follow from it.
 
 constant(Run, Met, Touched, Classes, Constant) :-
     Run:lasts(Last),
     graph(told_above(Run, Class, Above), Class-Above, Up),
+    graph(( told_above(Run, Class, Above), \+ definition(Run, Class, 'is a', Above) ), Class-Above, Following),
     graph(definition(Run, Class, 'is a', Part), Part-Class, Users),
     graph(( member(Property-Rows, Met),
             member(Individual-Its, Rows),
@@ -129,7 +131,7 @@ constant(Run, Met, Touched, Classes, Constant) :-
               reached(Users, Near, Asking),
               sort(Asking, Asked),
               ord_intersection(Asked, Told, Shown),
-              reached(Up, Shown, Loose0),
+              reached(Following, Shown, Loose0),
               sort(Loose0, Loose),
               ord_subtract(Told, Loose, Firm),
               reached(Up, Firm, All0),
