@@ -95,6 +95,11 @@ def session() -> Iterator[Session]:
         ("setof(X, T^holds(brocken(X), T), L)", "no fluent brocken/1"),
         ("maplist([X]>>holds(brocken(X), _), [egg1])", "no fluent brocken/1"),
         ("maplist(holds(broken(egg2)), [T])", "no individual named egg2"),
+        # What a variable is compared with is what it stands for.
+        ("holds(F, T), F = brocken(X)", "no fluent brocken/1"),
+        ("occurs(E, T), faling(egg1) == E", "no event faling/1"),
+        ("holds(F, T), fluentT(F, Type), Type \\= brocken", "no fluent named brocken"),
+        ("instance_of(egg1, C), \\+ C == 'Eggg'", "no class named 'Eggg'"),
         # What is known only when the goal runs.
         ("F = brocken(X), holds(F, T)", "no fluent brocken/1"),
         ("member(X, [egg1, egg2]), holds(broken(X), T)", "no individual named egg2"),
@@ -277,9 +282,19 @@ def test_a_known_name_with_a_capital_is_told_to_be_a_variable(session: Session, 
 
 
 @pytest.mark.parametrize(
+    "goal", ["holds(broken(egg1), 99)", "occurs(grasping(_, _, _), -0.5)", "\\+ \\+ holds(broken(egg1), 4.5)"]
+)
+def test_no_is_not_all_that_is_said_of_an_instant_outside_the_log(session: Session, goal: str) -> None:
+    with pytest.warns(Note, match="the log tells nothing of (99|-0.5|4.5) s: it lasts from 0 to 4 s"):
+        assert session.ask(RUN1, goal) == []
+
+
+@pytest.mark.parametrize(
     "goal",
     [
         "holds(F, T), fluentT(F, Type)",
+        "\\+ holds(broken(egg1), 99)",
+        "holds(broken(X), T), X \\= table9",
         "holds(Broken, T), fluentT(Broken, broken)",
         "holds(broken(Egg1), T)",
         "instance_of(Egg, Class)",

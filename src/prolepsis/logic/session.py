@@ -16,8 +16,8 @@ from functools import lru_cache
 from pathlib import Path
 
 from prolepsis.log.timeline import Timeline
-from prolepsis.logic.capitals import variables_note
 from prolepsis.logic.near_threshold import near_note
+from prolepsis.logic.not_as_meant import meaning_notes
 from prolepsis.logic.open_ends import open_note
 from prolepsis.logic.pasting import pasted
 from prolepsis.logic.process import ProcessLost, PrologProcess
@@ -173,7 +173,7 @@ class Session:
         read, _, body = body.partition("\n")
         answers = _answers(body, time.monotonic() + time_limit + GRACE, goal)
         notes = [
-            variables_note(read, goal),
+            *meaning_notes(read, goal, timeline.duration, no=not answers),
             open_note(answers, open_ends, goal),
             "" if answers else undone_note(timeline, goal),
             near_note(timeline, answers, goal),

@@ -1,8 +1,8 @@
 /*  Answers: a goal in text is read, checked, put in order, run within its limits, and answered in text.
 
     A reply is lines: first "ok" ("cut" where a value was too large or deep to be told whole) and, after tabs, what still
-    went on when the log ended and bears on the goal; or what went wrong. Then known names that were read as variables, in
-    threes: variable, kind and name; the variables; and one line for each distinct answer, with the values of the
+    went on when the log ended and bears on the goal; or what went wrong. Then known names that were read as variables, and
+    instants outside the log, in threes: as it stands, kind and name; the variables; and one line for each distinct answer, with the values of the
     variables separated by tabs, as terms that can be read back.
 */
 
@@ -20,6 +20,7 @@
 :- use_module(guard).
 :- use_module(compared).
 :- use_module(names).
+:- use_module(not_as_meant).
 :- use_module(open_ends).
 :- use_module(order).
 :- use_module(outer).
@@ -40,7 +41,7 @@ answers(Run, Text, Limit, Seconds, Lines) :-
     pairs(Outer, Names, Values),
     nb_setval(prolepsis_cut, "ok"),
     nb_setval(prolepsis_told, 0),
-    call_with_time_limit(Seconds, ( found(Run, Goal, Values, Limit, Answers), read_as_variables(Goal, Bindings, Read) )),
+    call_with_time_limit(Seconds, ( found(Run, Goal, Values, Limit, Answers), not_as_meant(Run, Goal, Bindings, Read) )),
     nb_getval(prolepsis_cut, Status),
     open_ends(Run, Goal, Ends),
     atomic_list_concat([Status|Ends], '\t', First),
@@ -49,11 +50,15 @@ answers(Run, Text, Limit, Seconds, Lines) :-
     atomic_list_concat([Header|Answers], '\n', Body),
     Lines = [First, "\n", Second, "\n", Body].
 
-read_as_variables(Goal, Bindings, Read) :-
-    findall([Variable, Of, Text],
-            ( read_as_variable(Goal, Bindings, Variable, Kind, Name),
-              named_kind(Kind, Of),
-              short_text(Name, Text) ),
+not_as_meant(Run, Goal, Bindings, Read) :-
+    findall([Shown, Of, Text],
+            (   read_as_variable(Goal, Bindings, Shown, Kind, Name),
+                named_kind(Kind, Of),
+                short_text(Name, Text)
+            ;   outside(Goal, Run, Shown),
+                Of = time,
+                Text = ''
+            ),
             Found),
     append(Found, Read).
 

@@ -10,12 +10,15 @@
             check_names/1,              % +Goal
             check_found_nothing/1,      % +Goal
             known_names/2,              % +Kind, -Names
-            read_as_variable/5,         % +Goal, +Bindings, -Variable, -Kind, -Name
+            named/3,                    % +Goal, -Kind, -Argument
+            within/2,                   % +Goal, -Inner
+            what/1,                     % +Kind
+            fact_kind/1,                % ?Kind
+            candidate/2,                % +Kind, -Name
             declare_event/1             % +Event
           ]).
 :- use_module(library(lists)).
 :- use_module(library(apply)).
-:- use_module(library(occurs)).
 :- use_module(chronicles).
 :- use_module(guard).
 :- use_module(runs).
@@ -28,24 +31,24 @@
 %
 %   What the arguments of the predicates on timelines and individuals must be: ? for any term, else the kind of what is
 %   named; fact is a fluent or an event, type(Kind) the name of its type in either spelling, individuals a list of them,
-%   and value(N) a value of what the Nth argument names.
+%   value(N) a value of what the Nth argument names, and time an interval or an instant, which names nothing.
 
-takes(holds(fluent, ?)).
-takes(holds_at(fluent, ?)).
-takes(occurs(event, ?)).
+takes(holds(fluent, time)).
+takes(holds_at(fluent, time)).
+takes(occurs(event, time)).
 takes(fluent(fluent, type(fluent))).
 takes(fluentT(fluent, type(fluent))).
 takes(event(event, type(event))).
 takes(eventT(event, type(event))).
 takes(argsOf(fact, ?)).
 takes(objOf(fact, individual)).
-takes(evidence(fact, ?, evidence, value(3))).
+takes(evidence(fact, time, evidence, value(3))).
 takes(fact(run, ?, type(fact), individuals, ?, ?)).
 takes(in(run, ?)).
 takes(ongoing(fact)).
-takes(near_miss(fact, ?, ?)).
+takes(near_miss(fact, time, ?)).
 takes(instance_of(individual, class)).
-takes(instance_of(individual, class, ?)).
+takes(instance_of(individual, class, time)).
 takes(has_part(individual, individual)).
 takes(value(individual, property, value(2))).
 takes(subclass_of(class, class)).
@@ -60,26 +63,61 @@ takes(matching(?, ?, ?, type(fact), individual)).
 
 check_names(Goal) :-
     forall(( named(Goal, Kind, Argument), nonvar(Argument) ),
-           check_name(Kind, Argument)).
+           check_name(Kind, Argument)),
+    forall(( compared(Goal, Variable, Term), once(( named(Goal, Kind, Named), Named == Variable )), what(Kind) ),
+           check_name(Kind, Term)).
 
-%   named(+Goal, -Kind, -Argument): Argument in Goal, or in a goal in it, is what a Kind of thing is named by.
+%   compared(+Goal, -Variable, -Term): in Goal it is asked whether Variable is Term, beside where it is named.
 
-named(Goal, _, _), var(Goal) => fail.
-named(_/Lambda, Kind, Argument) => named(Lambda, Kind, Argument).
-named(Parameters>>Body, Kind, Argument), is_list(Parameters) => named(Body, Kind, Argument).
-named(_^Goal, Kind, Argument) => named(Goal, Kind, Argument).
-named(Goal, Kind, Argument), callable(Goal) =>
-    (   argument(Goal, Kind, Argument)
+compared(Goal, Variable, Term) :-
+    within(Goal, Inner),
+    (   comparison(Inner, Variable, Term)
+    ;   comparison(Inner, Term, Variable)
+    ),
+    var(Variable),
+    nonvar(Term).
+
+comparison(A = B, A, B).
+comparison(A == B, A, B).
+comparison(A \= B, A, B).
+comparison(A \== B, A, B).
+
+%!  what(+Kind) is semidet.
+%
+%   True of a Kind that is not an individual, which may be there in one run and not in another.
+
+what(Kind) :-
+    ( fact_kind(Kind) ; memberchk(Kind, [type(_), class, property, evidence, quantity]) ),
+    !.
+
+%!  named(+Goal, -Kind, -Argument) is nondet.
+%
+%   True if Argument in Goal, or in a goal in it, is what a Kind of thing is named by.
+
+named(Goal, Kind, Argument) :-
+    within(Goal, Inner),
+    argument(Inner, Kind, Argument).
+
+%!  within(+Goal, -Inner) is nondet.
+%
+%   True if Inner is Goal, or a goal in it.
+
+within(Goal, _), var(Goal) => fail.
+within(_/Lambda, Inner) => within(Lambda, Inner).
+within(Parameters>>Body, Inner), is_list(Parameters) => within(Body, Inner).
+within(_^Goal, Inner) => within(Goal, Inner).
+within(Goal, Inner), callable(Goal) =>
+    (   Inner = Goal
     ;   functor(Goal, Name, Arity),
         Arity > 0,
         functor(Calls, Name, Arity),
         may(Calls),
         arg(N, Calls, Way),
-        arg(N, Goal, Inner),
-        called(Way, Inner, Called),
-        named(Called, Kind, Argument)
+        arg(N, Goal, Argument),
+        called(Way, Argument, Called),
+        within(Called, Inner)
     ).
-named(_, _, _) => fail.
+within(_, _) => fail.
 
 argument(Goal, Kind, Argument) :-
     functor(Goal, Name, Arity),
@@ -104,33 +142,6 @@ called(Extra, Closure, Called), integer(Extra) =>
     ).
 called(_, _, _) =>
     fail.
-
-%!  read_as_variable(+Goal, +Bindings, -Variable, -Kind, -Name) is nondet.
-%
-%   True if Variable stands only once in Goal, where a Kind is named, and is spelt as the Name of one but for capitals.
-
-read_as_variable(Goal, Bindings, Variable, Kind, Name) :-
-    member(Variable=Value, Bindings),
-    var(Value),
-    occurrences_of_var(Value, Goal, 1),
-    once(( named(Goal, Kind, Argument), Argument == Value )),
-    \+ memberchk(Kind, [individual, individuals, run, value(_)]),
-    folded(Variable, Folded),
-    once(( candidate(Kind, Known), named_as(Known, Kind, Name), functor(Name, Plain, _), folded(Plain, Folded) )).
-
-%   A fact is named by a term.
-
-named_as(Name/Arity-Is, Kind, Term), fact_kind(Kind) =>
-    ( Kind == fact ; Kind == Is ),
-    functor(Term, Name, Arity).
-named_as(Name, _, Known) =>
-    Known = Name.
-
-folded(Name, Folded) :-
-    atom(Name),
-    atomic_list_concat(Words, '_', Name),
-    atomic_list_concat(Words, Joined),
-    downcase_atom(Joined, Folded).
 
 %   A closure is called with Extra more arguments.
 
@@ -180,6 +191,8 @@ check_name(Kind, Term), fact_kind(Kind) =>
         unknown(Kind, Name/Arity)
     ;   unknown(Kind, Term)
     ).
+check_name(time, _) =>
+    true.
 check_name(individuals, List) =>
     forall(( listed(List, Each), ( atom(Each) ; string(Each) ) ), check_name(individual, Each)).
 check_name(property, Name), related(Name) =>
@@ -238,6 +251,8 @@ stored_value(Of, Value) :-
     known_run(_, Run),
     ( Run:value(_, Of, Value) ; Run:proof(_, Of, Value) ),
     !.
+
+%!  fact_kind(?Kind) is nondet.
 
 fact_kind(fluent).
 fact_kind(event).
@@ -388,6 +403,10 @@ known_names(Kind, Names) :-
     ).
 
 most_names(20_000).
+
+%!  candidate(+Kind, -Name) is nondet.
+%
+%   True if Name is known of Kind, for facts Name/Arity-Kind; some come more than once.
 
 candidate(Kind, Candidate), fact_kind(Kind) =>
     Candidate = Name/Arity-Known,
