@@ -172,8 +172,8 @@ def make_timeline(
     """Return the timeline of ``facts``: sorted, maximal, and at the instants of ticks that are nearest to their times.
 
     Stretches of the same fact that overlap or meet become one. Its evidence keeps, of a number given by several, the
-    greatest (of one called ``_least`` the least), and of a name, the first. A fact within one tick is made one tick long.
-    Of an event that goes on to the end of the log, evidence tells that it ends with it.
+    greatest (of one called ``_least`` the least), and of a name, the first. A fact within one tick is made one tick
+    long. Of an event that goes on to the end of the log, evidence tells that it ends with it.
 
     Args:
         facts: The facts, in any order.
