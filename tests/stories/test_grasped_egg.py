@@ -47,6 +47,7 @@ def test_the_held_egg_is_whole_and_carried_by_nothing_else(good: Projection) -> 
     assert good.ask("occurs(picking_up(rightGripper,egg1), _)")
 
 
+@pytest.mark.filterwarnings("ignore:near its threshold")
 def test_after_a_crushing_grasp_the_egg_is_broken(crushing: Projection) -> None:
     found = {(str(a["Type"]), a["Args"]) for a in crushing.ask(query("force12"))}
     assert ("broken", ("egg1",)) in found

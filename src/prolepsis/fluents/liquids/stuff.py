@@ -45,8 +45,8 @@ def spilled(observation: Observation) -> Iterator[Fact | NearMiss]:
     """A noticeable fraction of the stuff rests on or flows over a surface outside every container."""
     lying = observation.of(outside_masks)
     for stuff, shares in observation.of(blob_shares).items():
-        fraction = _share(observation, shares, lying)
-        mass = _mass(observation, stuff, shares)
+        fraction = share_of(observation, shares, lying)
+        mass = mass_of(observation, stuff, shares)
         what = "fluent", "spilled", (observation.log.things[stuff].name,)
         yield from facts_of_share(observation, what, fraction, mass, _noticed(observation, fraction))
 
@@ -61,7 +61,7 @@ def spilling(observation: Observation) -> Iterator[Fact]:
         flows = speed[blob] > FLOWING_SPEED
         flowing[blob] = arriving(mask[:, None], ~flows[:, None], frames)[:, 0] & flows
     for stuff, shares in observation.of(blob_shares).items():
-        fraction, outside = _share(observation, shares, flowing), _share(observation, shares, lying)
+        fraction, outside = share_of(observation, shares, flowing), share_of(observation, shares, lying)
         for start, end in _noticed(observation, fraction):
             before, after = float(outside[max(start - 1, 0)]), float(outside[min(end, observation.tick_count - 1)])
             evidence = {"fraction": float(fraction[start:end].max()), "spilled_before": before, "spilled_after": after}
@@ -75,12 +75,12 @@ def supports_stuff(observation: Observation) -> Iterator[Fact | NearMiss]:
     bearing = {pair: mask_of(s, observation.tick_count) for pair, s in observation.of(support_runs).items()}
     for stuff, shares in observation.of(blob_shares).items():
         surfaces = {below for below, above in bearing if above in shares and not is_stuff(observation, below)}
-        mass = _mass(observation, stuff, shares)
+        mass = mass_of(observation, stuff, shares)
         for below in sorted(surfaces):
             rows = [
                 (b, above, mask) for (b, above), mask in bearing.items() if above in shares and b in {below, *shares}
             ]
-            fraction = _share(observation, shares, _piled(observation, rows, {below}))
+            fraction = share_of(observation, shares, _piled(observation, rows, {below}))
             args = observation.unit_names[below], observation.log.things[stuff].name
             what = "fluent", "supports", args
             yield from facts_of_share(observation, what, fraction, mass, _noticed(observation, fraction))
@@ -156,13 +156,14 @@ def _piled(
     return found
 
 
-def _mass(observation: Observation, stuff: int, shares: Mapping[int, float]) -> float:
+def mass_of(observation: Observation, stuff: int, shares: Mapping[int, float]) -> float:
     """Return the mass of a stuff [kg]."""
     things = observation.log.things
     return things[stuff].mass or sum(things[blob].mass for blob in shares)
 
 
-def _share(observation: Observation, shares: Mapping[int, float], masks: BlobMasks) -> FloatArray:
+def share_of(observation: Observation, shares: Mapping[int, float], masks: BlobMasks) -> FloatArray:
+    """Return the share of a stuff's mass in the blobs of which the masks are true, shape (T,)."""
     total = np.zeros(observation.tick_count)
     for blob, share in shares.items():
         if blob in masks:
@@ -178,7 +179,7 @@ def _noticed(observation: Observation, fraction: FloatArray) -> IntArray:
 def _mostly(observation: Observation, type: str, find: Callable[[Observation], dict[int, IntArray]]) -> Iterator[Fact]:
     masks = {unit: mask_of(stretches, observation.tick_count) for unit, stretches in observation.of(find).items()}
     for stuff, shares in observation.of(blob_shares).items():
-        fraction = _share(observation, shares, masks)
+        fraction = share_of(observation, shares, masks)
         for start, end in debounce(fraction >= MOST - ROUNDING, observation.dt, gap=STUFF_GAP, least=STUFF_LEAST):
             evidence = {"fraction": float(fraction[start:end].max()), MARGIN: margin_of(fraction / MOST, start, end)}
             yield observation.fact("event", type, (observation.log.things[stuff].name,), (start, end), evidence)

@@ -1,4 +1,4 @@
-"""``supports(a, b)``: a bears a noticeable share of b's weight from below, and b's weight is balanced."""
+"""When one thing bears another: a noticeable share of its weight, from below, while that is balanced."""
 
 from __future__ import annotations
 
@@ -8,15 +8,11 @@ import numpy as np
 
 from prolepsis.fluents.intervals import debounce, mask_of, one_sided_means, ticks_of
 from prolepsis.fluents.kinematics import BALANCE_WINDOW, balanced
-from prolepsis.fluents.margins import NearMiss, margin_of, nearly
+from prolepsis.fluents.margins import NearMiss, nearly
 from prolepsis.fluents.observation import Observation, is_held_from_outside, named
-from prolepsis.fluents.registry import fluent
 from prolepsis.fluents.solids.contact import FLICKER, is_stuff
-from prolepsis.fluents.solids.resting import fixed_supports
 from prolepsis.fluents.solids.touch import touches
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
-from prolepsis.log.near import MARGIN
-from prolepsis.log.timeline import Fact
 
 NOTICEABLE_SHARE = 0.1
 """Share of b's weight [1] that a must bear."""
@@ -30,43 +26,19 @@ SUPPORT_LEAST = 0.05
 Pair = tuple[int, int]
 
 
-@fluent("supports", "o1", "o2")
-def supports(observation: Observation) -> Iterator[Fact | NearMiss]:
-    """o1 bears at least a tenth of o2's weight through contacts that lie under o2, and o2's weight is balanced."""
-    for (below, above), stretches in observation.of(support_runs).items():
-        # Of a stuff it is told what all its blobs bear together.
-        if observation.has_role(below, "Blob") or is_stuff(observation, above):
-            continue
-        names = observation.unit_names[below], observation.unit_names[above]
-        bearing = observation.of(bearing_forces)[below, above]
-        weight, borne = observation.mass(above) * observation.gravity, observation.of(bearing_in_all)[above]
-        ratio = _ratio(observation, above, bearing)
-        for start, end in stretches:
-            force = float(bearing[start:end].mean())
-            # What is pressed down has to be borne with what presses it; what also hangs by a joint is not borne in all.
-            load = max(float(weight[start:end].mean()), float(borne[start:end].mean()))
-            evidence = {"share": force / load, "mean_force": force, MARGIN: margin_of(ratio, start, end)}
-            yield observation.fact("fluent", "supports", names, (start, end), evidence)
-    yield from observation.of(_judged)[1]
-    whole = 0, observation.tick_count
-    for below, above in observation.of(fixed_supports):
-        names = observation.unit_names[below], observation.unit_names[above]
-        yield observation.fact("fluent", "supports", names, whole, {"share": 1.0})
-
-
 def support_runs(observation: Observation) -> dict[Pair, IntArray]:
     """Return when each unit, blobs included, and each stuff as one bears which unit: (below, above) to runs."""
-    return observation.of(_judged)[0]
+    return observation.of(judged_supports)[0]
 
 
-def _judged(observation: Observation) -> tuple[dict[Pair, IntArray], list[NearMiss]]:
+def judged_supports(observation: Observation) -> tuple[dict[Pair, IntArray], list[NearMiss]]:
     """Return when each unit bears which unit, and what nearly bore what."""
     dt, count = observation.dt, observation.tick_count
     at_rest = observation.of(balanced)
     found: dict[Pair, IntArray] = {}
     missed: list[NearMiss] = []
     for (below, above), bearing, touching in _bearing(observation):
-        ratio = np.where(touching & at_rest[above], _ratio(observation, above, bearing), 0.0)
+        ratio = np.where(touching & at_rest[above], bearing_ratio(observation, above, bearing), 0.0)
         stretches = debounce(ratio > 1.0, dt, gap=SUPPORT_GAP, least=min(SUPPORT_LEAST, count * dt))
         if len(stretches):
             found[below, above] = stretches
@@ -76,7 +48,7 @@ def _judged(observation: Observation) -> tuple[dict[Pair, IntArray], list[NearMi
     return found, missed
 
 
-def _ratio(observation: Observation, above: int, bearing: FloatArray) -> FloatArray:
+def bearing_ratio(observation: Observation, above: int, bearing: FloatArray) -> FloatArray:
     """Return how much of a unit's weight a force [N] bears, over what is noticed [1], shape (T,)."""
     past, future = one_sided_means(bearing, ticks_of(BALANCE_WINDOW, observation.dt))
     noticed = NOTICEABLE_SHARE * observation.mass(above) * observation.gravity

@@ -50,6 +50,7 @@ fact_type(hitting, 3, event).
 fact_type(hitting, 4, event).
 fact_type(hitting, 5, event).
 fact_type(holding, 2, event).
+fact_type(inFlight, 1, event).
 fact_type(lifting, 2, event).
 fact_type(lifting, 3, event).
 fact_type(lifting, 4, event).
