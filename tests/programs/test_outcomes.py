@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import get_args
 
+import numpy as np
 import pytest
 from tests.programs.test_programs import FakeHand, carried_out
 from tests.scenes import EGG_IN_HAND, run, scene
@@ -144,17 +145,32 @@ def test_what_slides_through_the_pads_is_dropped_and_not_held(share: float, lift
     assert ("slipped" in reason) == (pressing == "not_held")
 
 
-def test_a_wiping_over_nothing_has_not_its_force() -> None:
-    situation = BLOCK + ":height 0.04 ." + " :hand1 a :Gripper ; :pitch 90.0 ; :z 0.742 ; :opening 0.05 ."
-    log = run(
-        situation, "sequence([grasp(hand1, block1, 20), lift(hand1, 0.1), wipe(hand1, block1, table1, [0.1, 0, 0])])"
-    )
-    verb, outcome, reason = ended(log)[-1]
-    assert (verb, outcome) == ("wipe", "not_reached")
-    assert reason.endswith(" of 1 N")
+BLOCK_IN_HAND = BLOCK + ":height 0.04 ." + " :hand1 a :Gripper ; :pitch 90.0 ; :z 0.742 ; :opening 0.05 ."
+
+
+def lifted_and_wiped(height: float) -> Log:
+    """Return the log of a block that is lifted by ``height`` [m] and then wiped over the table."""
+    wiping = f"lift(hand1, {height}), wipe(hand1, block1, table1, [0.1, 0, 0])"
+    return run(BLOCK_IN_HAND, f"sequence([grasp(hand1, block1, 20), {wiping}])")
+
+
+def test_a_wiping_over_nothing_makes_no_strokes() -> None:
+    log = lifted_and_wiped(0.1)
+    assert ended(log)[-1] == ("wipe", "not_reached", "block1 is not pressed on table1 30 mm farther down")
+    assert float(np.ptp(log.poses[:, log.index("block1"), 0])) < 0.01
     # What it did not touch is told all the same.
     (wiping,) = recognize(log).select(type="wiping")
     assert wiping.evidence["outcome"] == "not_reached"
+
+
+def test_the_strokes_of_a_wiping_begin_when_what_is_held_presses_on_the_surface() -> None:
+    log = lifted_and_wiped(0.01)
+    assert ended(log)[-1] == ("wipe", "done", "")
+    begun = log.actions[-1].start
+    aside = np.abs(log.poses[begun:, log.index("block1"), 0] - log.poses[begun, log.index("block1"), 0])
+    first = int(np.flatnonzero(aside > 0.001)[0]) + begun
+    down = [f.start for f in recognize(log).select(type="contacts") if set(f.args) == {"block1", "table1"}][-1]
+    assert log.time[begun] < down < log.time[first]
 
 
 PR2_BY_A_TABLE = (

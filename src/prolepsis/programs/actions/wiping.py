@@ -13,8 +13,14 @@ from prolepsis.scene.scene import Scene
 
 ACCELERATION = 2.0
 """Of the strokes [m/s^2]."""
+APPROACH_SPEED, EASING = 0.01, 0.1
+"""The hand goes down so fast until what it holds touches the surface, and gets to that in this time [m/s, s]."""
+TOO_DEEP = 0.03
+"""What has not touched the surface by so far below has nothing to wipe [m], as with a push."""
 SETTLING = 0.4
-"""Time in which the hand finds the surface and presses [s]."""
+"""Time for which it touches the surface, and the force grows, before the strokes begin [s]."""
+TOO_LONG = 2.0
+"""The hand gives up when this takes so much longer than it should [s]."""
 RATE = 20.0
 """Rate at which an error of the force fades [1/s]: slow against the servo, fast against a stroke."""
 FORCE_WITHIN = 0.2
@@ -45,25 +51,39 @@ def wipe(
     speed: float,
 ) -> Behaviour:
     """Stroke what the hand holds over the surface, by a displacement and back in turn, pressed on with a force."""
-    del scene, surface
+    del scene
     start = holding(hand, object, sense)
     resting = start.load()[2]
-    still: list[tuple[Triple, Triple]] = [((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))] * round(SETTLING / TICK)
-    here, depth, ticks, total = start.offset, 0.0, 0, 0.0
+    deadline = sense.time + TOO_DEEP / APPROACH_SPEED + SETTLING + TOO_LONG
+    here, depth, sinking, settled, ticks, total = start.offset, 0.0, 0.0, 0.0, 0, 0.0
+
+    def at(way: Triple, velocity: Triple) -> HandTarget:
+        offset = (here[0] + way[0], here[1] + way[1], here[2] + way[2] - depth)
+        return HandTarget(hand=hand.name, offset=offset, velocity=velocity, rotation=start.rotation)
+
+    while settled < SETTLING:
+        if depth > TOO_DEEP or sense.time > deadline:
+            reason = f"{object.name} is not pressed on {surface.name} {depth * 1000:.0f} mm farther down"
+            sense = yield (Measured(evidence={"force": 0.0, "reason": reason}, outcome="not_reached"),)
+            return (yield from travel(hand, sense, (0.0, 0.0, depth), ACCELERATION, LIFT_SPEED))
+        touches = sense.pressing(object.name, surface.name) > 0.0
+        settled += TICK * touches
+        growing = (force - resting + sense.hands[hand.name].load()[2]) / start.stiffness * RATE
+        on_the_way = min(APPROACH_SPEED, sinking + APPROACH_SPEED / EASING * TICK)
+        sinking = growing if touches or growing < 0.0 else on_the_way
+        depth += sinking * TICK
+        sense = yield (at((0.0, 0.0, 0.0), (0.0, 0.0, -sinking)),)
     x, y, z = displacement
-    for stroke in range(round(strokes) + 1):
+    for stroke in range(1, round(strokes) + 1):
         along = (x, y, z) if stroke % 2 else (-x, -y, -z)
-        for step, velocity in still if stroke == 0 else line(along, ACCELERATION, speed):
+        for step, velocity in line(along, ACCELERATION, speed):
             pressed = resting - sense.hands[hand.name].load()[2]
             # The hand is a spring: commanded deeper, it presses more.
             depth += (force - pressed) / start.stiffness * RATE * TICK
-            offset = (here[0] + step[0], here[1] + step[1], here[2] + step[2] - depth)
-            sense = yield (HandTarget(hand=hand.name, offset=offset, velocity=velocity, rotation=start.rotation),)
-            if stroke:
-                ticks, total = ticks + 1, total + pressed
-        if stroke:
-            sense = yield from arrived(hand, sense)
-            here = (here[0] + along[0], here[1] + along[1], here[2] + along[2])
+            sense = yield (at(step, velocity),)
+            ticks, total = ticks + 1, total + pressed
+        sense = yield from arrived(hand, sense)
+        here = (here[0] + along[0], here[1] + along[1], here[2] + along[2])
     # What presses on nothing feels a little of either sign.
     mean = max(total / ticks, 0.0)
     sense = yield (Measured(evidence={"force": mean}),)
