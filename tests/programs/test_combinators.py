@@ -173,6 +173,8 @@ REFUSED = [
     ("hit(hand1, egg1, egg1)", PlanError, "egg1 cannot be hit against itself"),
     ("split(hand1, hand1, egg1, 5)", PlanError, "hand1 cannot split egg1 alone; name another gripper"),
     ("split(hand1, hand2, egg1, 5)", PlanError, "hand1 and hand2 are not on two arms of one robot"),
+    ("split(hand1, hand2, egg1, 5, -0.1)", PlanError, "angle of .* must not be negative, but is -0.1 rad"),
+    ("split(hand1, hand2, egg1, 5, 0, 0)", PlanError, "egg1 is not split by no angle and no distance; give one"),
     ("hit(hand1, egg1, table1, 0.2, side)", PlanError, "must be one of edge, top, not side"),
     ("drive(hand1, [0, 0])", UnknownNameError, "no robot named 'hand1'"),
 ]

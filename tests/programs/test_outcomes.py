@@ -356,3 +356,8 @@ def test_a_closing_that_does_not_come_to_rest_is_given_up() -> None:
     ((tick, end),) = [(tick, each) for tick, each in said if isinstance(each, End)]
     assert (tick, end.outcome) == (8000, "timed_out")
     assert end.evidence["reason"] == "hand1 does not come to rest on egg1"
+
+
+def test_what_a_hand_holds_cannot_be_brought_over() -> None:
+    log = run(BLOCK_IN_HAND, "sequence([grasp(hand1, block1, 20), bring(hand1, block1)])")
+    assert ended(log)[-1] == ("bring", "unreachable", "hand1 holds block1, which goes where the hand goes")

@@ -52,7 +52,11 @@ class FakeHand:
             held=lambda: ("egg1",) if self.force else (),
         )
         return Sense(
-            time=time, hands={"hand1": hand}, position=lambda name: (0.0, 0.0, 0.722), orientation=lambda _: IDENTITY
+            time=time,
+            hands={"hand1": hand},
+            position=lambda name: (0.0, 0.0, 0.722),
+            orientation=lambda _: IDENTITY,
+            pressing=lambda one, other: -hand.load()[2],
         )
 
 
@@ -177,6 +181,25 @@ REFUSED = [
     ("pour(hand1, egg1, egg1)", PlanError, "egg1 cannot be poured into itself"),
     ("pour(hand1, egg1, floor)", PlanError, "floor has no body to pour to"),
     ("pour(hand1, egg1, table1)", PlanError, "hand1 is not level, so it cannot pour; allowed: pitch 0 and roll 0"),
+    ("carry(hand1, [0, 0, 0])", PlanError, r"displacement of .* must not be zero, but is 0 m$"),
+    ("carry(hand1, [0, 0, -0.0])", PlanError, "must not be zero"),
+    ("lift(hand1, 0)", PlanError, "height of .* must not be zero, but is 0"),
+    ("wipe(hand1, egg1, egg1, [0.1, 0, 0])", PlanError, "egg1 cannot be wiped over itself"),
+    ("wipe(hand1, egg1, table1, [0, 0, 0.1])", PlanError, "a stroke of wipe goes along the surface, not only up or"),
+    ("grasp(hand1, egg1, 5, 0, -0.01)", PlanError, "short of .* must not be negative, but is -0.01"),
+    (
+        "reach(hand1, egg1, 0.2, 0, 0.03)",
+        PlanError,
+        "30 mm short of the middle of egg1 is beyond its end, which is 28 mm",
+    ),
+    ("pour(hand1, egg1, table1, -1)", PlanError, "angle of .* must be positive, not -1 rad"),
+    ("pour(hand1, egg1, table1, 0)", PlanError, "angle of .* must be positive, not 0 rad"),
+    ("tilt(hand1, 1, 1e-12)", PlanError, "rate of .* must be at least 0.001 rad/s, not 1e-12"),
+    ("lift(hand1, 0.1, 1e-12)", PlanError, "speed of .* must be at least 0.0001 m/s, not 1e-12"),
+    ("lift(hand1, 0.1, 0.1, 1e-12)", PlanError, "acceleration of .* must be at least 0.001 m/s2, not 1e-12"),
+    ("hit(hand1, egg1, table1, 1e-9)", PlanError, "speed of .* must be at least 0.0001 m/s, not 1e-09"),
+    ("repeat_until(touching(egg1, egg1), wait(1))", PlanError, "would never hold: nothing touches itself"),
+    ("repeat_until(not(pressed(egg1, egg1, 2)), wait(1))", PlanError, "would never hold: nothing touches itself"),
     ("sequence(lift(hand1, 0.1))", PlanError, "sequence needs a list of at least one action"),
     ("sequence([Something])", PlanError, "Something stands where an action is needed"),
     ("wait", PlanError, "wait is no action; an action looks like"),
@@ -189,6 +212,21 @@ def test_a_plan_that_cannot_work_is_refused(
 ) -> None:
     with pytest.raises(kind, match=message):
         read_program(parse_term(plan), egg_in_hand)
+
+
+@pytest.mark.parametrize(
+    "plan",
+    [
+        "lift(hand1, -0.1)",
+        "carry(hand1, [0, 0, -0.1])",
+        "tilt(hand1, 0)",
+        "grasp(hand1, egg1, 5, -0.005, 0.02)",
+        "bring(hand1, table1, -0.01)",
+        "wipe(hand1, egg1, table1, [0.1, 0, 0.01])",
+    ],
+)
+def test_a_plan_whose_zero_or_negative_number_means_something_is_read(plan: str, egg_in_hand: Scene) -> None:
+    read_program(parse_term(plan), egg_in_hand)
 
 
 def test_an_object_out_of_reach_is_refused() -> None:

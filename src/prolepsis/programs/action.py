@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from prolepsis.log.fact_types import declare_action, event_of
 from prolepsis.log.things import Thing
@@ -60,8 +60,12 @@ NEEDS: Mapping[str, str] = {
 """What is asked of an object, in words: a hand holds only what is loose."""
 
 
-SIGNED = frozenset({"length", "angle"})
-"""Kinds of quantities that may be zero or negative."""
+Sign = Literal["any", "not negative", "not zero", "positive"]
+"""What is asked of a quantity's sign."""
+SIGNS: Mapping[str, Sign] = {"length": "any", "angle": "any", "displacement": "not zero", "position": "any"}
+"""Sign of the kinds of quantities that need not be positive, where an action does not ask for another."""
+SLOWEST: Mapping[str, float] = {"speed": 1.0e-4, "rate": 1.0e-3, "acceleration": 1.0e-3}
+"""Least size of some kinds, in SI units: what is slower needs hours for its way, and is no movement."""
 GREATEST: Mapping[str, float] = {
     "acceleration": ROBOT.max_acceleration,
     "rate": ROBOT.max_angular_speed,
@@ -91,6 +95,8 @@ class ParameterSpec:
     """Value when the argument is left out; None if it must be given."""
     needs: str = "anything"
     """What an object must be, one of ``NEEDS``."""
+    sign: Sign | None = None
+    """What a quantity's sign must be; None for what ``SIGNS`` says of its kind."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -230,7 +236,9 @@ def _bind(parameter: ParameterSpec, value: Value, term: Term, scene: Scene) -> A
     if parameter.kind in LISTS:
         count, example = LISTS[parameter.kind]
         if isinstance(value, tuple) and len(value) == count and all(isinstance(v, int | float) for v in value):
-            return tuple(_within(parameter, to_float(v), where) for v in value if isinstance(v, int | float))
+            numbers = tuple(_within(parameter, to_float(v), where) for v in value if isinstance(v, int | float))
+            _refuse_sign(parameter, max(map(abs, numbers)), where)
+            return numbers
         raise PlanError(f"{where} must be a {KINDS[parameter.kind]}, such as {example}")
     if parameter.kind == "file":
         return _bind_file(value, where, scene)
@@ -245,9 +253,20 @@ def _bind(parameter: ParameterSpec, value: Value, term: Term, scene: Scene) -> A
     number = _within(parameter, to_float(value), where)
     if parameter.kind == "count" and not number.is_integer():
         raise PlanError(f"{where} must be a whole number, not {number:g}")
-    if parameter.kind not in SIGNED and number <= 0:
-        raise PlanError(f"{where} must be positive, not {number:g} {UNITS.get(parameter.kind, '')}".rstrip())
+    _refuse_sign(parameter, number, where)
+    least = SLOWEST.get(parameter.kind, 0.0)
+    if abs(number) < least:
+        raise PlanError(f"{where} must be at least {least:g} {UNITS[parameter.kind]}, not {number:g}")
     return number
+
+
+def _refuse_sign(parameter: ParameterSpec, number: float, where: str) -> None:
+    """Refuse a number whose sign makes no sense; of a list, its greatest size is looked at."""
+    sign = parameter.sign or SIGNS.get(parameter.kind, "positive")
+    if {"any": False, "not negative": number < 0, "not zero": number == 0, "positive": number <= 0}[sign]:
+        asked = "be positive" if sign == "positive" else f"not be {sign.removeprefix('not ')}"
+        unit = UNITS.get(parameter.kind, "m" if parameter.kind in LISTS else "")
+        raise PlanError(f"{where} must {asked}, {'not' if sign == 'positive' else 'but is'} {number:g} {unit}".rstrip())
 
 
 def _number(kind: str) -> str:

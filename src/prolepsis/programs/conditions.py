@@ -83,4 +83,6 @@ def read_condition(value: Value, scene: Scene) -> Condition:
     if spec is None:
         raise UnknownNameError.of("condition", value.functor, [*CONDITIONS, "not"], "plan")
     arguments = bind(spec.parameters, value, scene)
+    if "other" in arguments and arguments["object"].name == arguments["other"].name:
+        raise PlanError(f"plan: {brief(value)} would never hold: nothing touches itself")
     return lambda sense: spec.holds(sense, **arguments)

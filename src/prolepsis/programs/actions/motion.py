@@ -19,6 +19,7 @@ from prolepsis.programs.moving.grasping import (
     grasp_poses,
     grasping_width,
     least_width,
+    longest_axis,
 )
 from prolepsis.programs.moving.profile import PEAK_ACCELERATION, PEAK_SPEED, least_jerk
 from prolepsis.programs.moving.reached import arrived
@@ -41,7 +42,7 @@ SPEED = ParameterSpec(name="speed", kind="speed", default=0.25)
 ACCELERATION = ParameterSpec(name="acceleration", kind="acceleration", default=1.0)
 REACHED = ParameterSpec(name="object", kind="object", needs="solid")
 HEIGHT = ParameterSpec(name="height", kind="length", default=0.0)
-SHORT = ParameterSpec(name="short", kind="length", default=0.0)
+SHORT = ParameterSpec(name="short", kind="length", default=0.0, sign="not negative")
 
 
 def line(displacement: Triple, acceleration: float, speed: float) -> Iterator[tuple[Triple, Triple]]:
@@ -123,8 +124,14 @@ def _blocked(hand: Thing, width: float, sense: Sense) -> ActionFailedError:
     return ActionFailedError("timed_out", f"{hand.name}: {gap}")
 
 
-def within_workspace(scene: Scene, *, hand: Thing, object: Thing, **_: object) -> None:
-    """Refuse an object that the hand cannot get to or around."""
+def within_workspace(scene: Scene, *, hand: Thing, object: Thing, short: float, **_: object) -> None:
+    """Refuse an object that the hand cannot get to or around, or a place beyond its end."""
+    half = extent_along(object, longest_axis(object)) / 2
+    if short >= half:
+        raise PlanError(
+            f"plan: {short * 1000:.0f} mm short of the middle of {object.name} is beyond its end, "
+            f"which is {half * 1000:.0f} mm from there"
+        )
     widest = hand.quantities["maxOpening"]
     width = grasping_width(hand.orientation, object)
     if robot_of_gripper(scene, hand) is not None:
@@ -192,7 +199,7 @@ def _reach_by_arm(
     raise ActionFailedError(first.problem, f"{object.name} by {hand.name}: {first.detail}")
 
 
-@action(HAND, ParameterSpec(name="height", kind="length"), SPEED, ACCELERATION)
+@action(HAND, ParameterSpec(name="height", kind="length", sign="not zero"), SPEED, ACCELERATION)
 def lift(scene: Scene, sense: Sense, *, hand: Thing, height: float, speed: float, acceleration: float) -> Behaviour:
     """Move the hand straight up (down if negative)."""
     del scene

@@ -62,7 +62,7 @@ def _can_pour(
     HAND,
     ParameterSpec(name="source", kind="object", needs="loose"),
     ParameterSpec(name="target", kind="object", needs="solid"),
-    ParameterSpec(name="angle", kind="angle", default=math.radians(110.0)),
+    ParameterSpec(name="angle", kind="angle", default=math.radians(110.0), sign="positive"),
     RATE,
     ParameterSpec(name="height", kind="length", default=0.02),
     ParameterSpec(name="offset", kind="length", default=0.0),

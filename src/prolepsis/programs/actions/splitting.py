@@ -22,6 +22,7 @@ from prolepsis.programs.moving.two_hands import OTHER, SHORTS, HandPose, HeldOut
 from prolepsis.robots.commands import Behaviour, Command, JointPath, Sense, no_joint_path
 from prolepsis.scene.extent import extent_along, support
 from prolepsis.scene.scene import Scene, reference_of
+from prolepsis.terms.errors import PlanError
 
 OPENING_TIME, PARTING_TIME = 1.0, 1.0
 """Bending open and drawing apart take so long [s]."""
@@ -29,7 +30,11 @@ OPENING_TIME, PARTING_TIME = 1.0, 1.0
 _Taken = Generator[tuple[Command, ...], Sense, tuple[HandPose, Sense]]
 
 
-def _can_split(scene: Scene, *, hand: Thing, other: Thing, object: Thing, **_: object) -> None:
+def _can_split(
+    scene: Scene, *, hand: Thing, other: Thing, object: Thing, angle: float, distance: float, **_: object
+) -> None:
+    if not angle and not distance:
+        raise PlanError(f"plan: {object.name} is not split by no angle and no distance; give one of them")
     check_two_arms(scene, "split", hand, other, object)
 
 
@@ -38,8 +43,8 @@ def _can_split(scene: Scene, *, hand: Thing, other: Thing, object: Thing, **_: o
     OTHER,
     HELD,
     FORCE,
-    ParameterSpec(name="angle", kind="angle", default=math.radians(30.0)),
-    ParameterSpec(name="distance", kind="length", default=0.08),
+    ParameterSpec(name="angle", kind="angle", default=math.radians(30.0), sign="not negative"),
+    ParameterSpec(name="distance", kind="length", default=0.08, sign="not negative"),
     check=_can_split,
 )
 def split(

@@ -55,7 +55,7 @@ PART = ParameterSpec(name="part", kind="part", default="edge")
 def _has_part(scene: Scene, *, object: Thing, against: Thing, part: str, **_: object) -> None:
     del scene
     if object.name == against.name:
-        raise PlanError(f"plan: {object.name} cannot be hit against itself")
+        raise PlanError(f"plan: {object.name} cannot be hit against itself, nor be pressed on itself")
     spots(against, part)
 
 
@@ -147,6 +147,8 @@ def bring(scene: Scene, sense: Sense, *, hand: Thing, target: Thing, height: flo
     """Move the hand, turned as it is and with what it holds, to a height over the middle of something's top."""
     del scene
     here = sense.hands[hand.name]
+    if here.grip and target.name in here.held():
+        raise ActionFailedError("unreachable", f"{hand.name} holds {target.name}, which goes where the hand goes")
     seen = as_seen(target, sense)
     x, y, _ = np.asarray(seen.position) + middle(seen)
     top = seen.position[2] + support(seen, np.array([0.0, 0.0, 1.0]))

@@ -10,6 +10,7 @@ from prolepsis.programs.moving.holding import holding
 from prolepsis.programs.moving.reached import arrived, compared
 from prolepsis.robots.commands import Behaviour, HandTarget, Measured, Sense
 from prolepsis.scene.scene import Scene
+from prolepsis.terms.errors import PlanError
 
 ACCELERATION = 2.0
 """Of the strokes [m/s^2]."""
@@ -29,6 +30,14 @@ LIFT_SPEED = 0.05
 """With which the hand lets go of the surface [m/s]."""
 
 
+def _can_wipe(scene: Scene, *, object: Thing, surface: Thing, displacement: Triple, **_: object) -> None:
+    del scene
+    if object.name == surface.name:
+        raise PlanError(f"plan: {object.name} cannot be wiped over itself")
+    if not any(displacement[:2]):
+        raise PlanError(f"plan: a stroke of wipe goes along the surface, not only up or down by {displacement[2]:g} m")
+
+
 @action(
     HAND,
     HELD,
@@ -37,6 +46,7 @@ LIFT_SPEED = 0.05
     ParameterSpec(name="strokes", kind="count", default=2.0),
     ParameterSpec(name="force", kind="push", default=1.0),
     ParameterSpec(name="speed", kind="speed", default=0.15),
+    check=_can_wipe,
 )
 def wipe(
     scene: Scene,
