@@ -61,6 +61,19 @@ def test_pads_that_press_each_other_hold_nothing() -> None:
     assert log.actions[0].evidence["peak_pad_force"] == pytest.approx(20.0, rel=0.05)
 
 
+def test_a_closing_tells_what_both_fingers_press_on_from_one_side() -> None:
+    wide = BLOCK.replace(":width 0.04", ":width 0.2") + ":height 0.04 ."
+    log = run(
+        wide + " :hand1 a :Gripper ; :pitch 90.0 ; :z 0.785 ; :opening 0.05 .",
+        "sequence([lift(hand1, -0.03), close(hand1, 20)])",
+    )
+    assert ended(log)[-1] == (
+        "close",
+        "missed",
+        "between the pads of hand1 is nothing; its fingers are pressed against block1",
+    )
+
+
 def test_a_grasp_that_closes_on_another_thing_has_missed() -> None:
     # The second block lies on the first one, and the pads reach higher than that.
     both = BLOCK + ":height 0.004 . :block2 a :Block ; :on :block1 ; :length 0.04 ; :width 0.05 ; :height 0.04 ."

@@ -11,7 +11,7 @@ from prolepsis.programs.moving.grasping import CLEARANCE, grasp_as_turned
 from prolepsis.programs.moving.holding import holding
 from prolepsis.programs.moving.reached import compared
 from prolepsis.programs.nesting import nested
-from prolepsis.robots.commands import ActionFailedError, Behaviour, CloseGripper, Measured, Sense
+from prolepsis.robots.commands import ActionFailedError, Behaviour, CloseGripper, HandSense, Measured, Sense
 from prolepsis.scene.scene import Scene
 
 SLOWEST, FASTEST = 0.002, 0.006
@@ -45,12 +45,20 @@ def felt(hand: Thing, force: float, sense: Sense, object: Thing | None = None) -
     sense = yield (Measured(evidence={"between": " and ".join(held) or "nothing"}),)
     if object is not None and object.name not in held:
         between = " and ".join(held) or "nothing"
-        raise ActionFailedError("missed", f"between the pads of {hand.name} is {between}, not {object.name}")
+        raise ActionFailedError(
+            "missed", f"between the pads of {hand.name} is {between}, not {object.name}{_pressed_on(here)}"
+        )
     if not held:
         return sense
     if here.motion != 0:
         raise ActionFailedError("timed_out", f"{hand.name} does not come to rest on {' and '.join(held)}")
     return (yield from compared(sense, "pad_force", here.pad_force, force, FORCE_WITHIN, "N"))
+
+
+def _pressed_on(here: HandSense) -> str:
+    """Return what the fingers press on, if they hold nothing: both may do so from the same side."""
+    against = () if here.held() else sorted(here.fingers())
+    return f"; its fingers are pressed against {' and '.join(against)}" if against else ""
 
 
 @action(HAND, FORCE)
@@ -60,7 +68,8 @@ def close(scene: Scene, sense: Sense, *, hand: Thing, force: float) -> Behaviour
     sense = yield from close_from(hand, hand.quantities["maxOpening"], force, sense)
     if not sense.hands[hand.name].held():
         # What it should hold has not been said: a fist may be what is wanted, so that the plan goes on.
-        yield (Measured(evidence={"reason": f"between the pads of {hand.name} is nothing"}, outcome="missed"),)
+        reason = f"between the pads of {hand.name} is nothing{_pressed_on(sense.hands[hand.name])}"
+        yield (Measured(evidence={"reason": reason}, outcome="missed"),)
     return (yield from felt(hand, force, sense))
 
 
