@@ -10,7 +10,7 @@ from prolepsis.log.log import FREE, PARKED, Contacts, Log, Particles
 from prolepsis.log.things import FIXED, Thing
 from prolepsis.report.droplets import Droplets
 from prolepsis.report.lathe import turned_surface
-from prolepsis.report.liquid import Picture
+from prolepsis.report.liquid import LOOKS, Eye, Picture, painted
 from prolepsis.report.render import pictures
 
 SPACING = 0.004
@@ -117,3 +117,19 @@ def test_a_turned_surface_encloses_the_volume_of_its_solid_and_is_open_at_holes(
     middles = corners[triangles].mean(axis=1)
     assert not ((middles[:, 0] > 0) & (np.hypot(middles[:, 1], middles[:, 2] - 0.03) < 0.004)).any()
     assert ((middles[:, 0] < 0) & (np.hypot(middles[:, 1], middles[:, 2] - 0.03) < 0.004)).any()
+
+
+def test_what_is_painted_does_not_depend_on_liquid_elsewhere_in_the_picture() -> None:
+    picture = np.full((120, 400, 3), 200, dtype=np.uint8)
+    eye = Eye(position=np.zeros(3), forward=np.array([1.0, 0, 0]), up=np.array([0, 0, 1.0]), focal=200.0)
+    behind = np.full(picture.shape[:2], 2.0)
+    near, far = cube((0.5, 0.3, 0.02)), cube((0.5, -0.3, -0.02))
+
+    def paint(positions: FloatArray) -> tuple[Picture, FloatArray]:
+        kinds = np.zeros(len(positions), dtype=np.int64)
+        return painted(picture, behind, eye, positions, kinds, [LOOKS["Water"]], SPACING)
+
+    (alone, taken), (both, taken_by_both) = paint(near), paint(np.concatenate([near, far]))
+    assert (alone[:, :200] != picture[:, :200]).any() and (both[:, 200:] != picture[:, 200:]).any()
+    assert (alone[:, :200] == both[:, :200]).all() and (taken[:, :200] == taken_by_both[:, :200]).all()
+    assert (alone[:, 200:] == picture[:, 200:]).all()

@@ -13,7 +13,7 @@ from typing import Any, cast
 import numpy as np
 import numpy.typing as npt
 
-from prolepsis.geometry.shape import FloatArray, IntArray
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.things import Thing
 from prolepsis.report.splatting import NOTHING, smoothed, splat
 
@@ -100,7 +100,13 @@ def painted(
         return picture, np.zeros(behind.shape)
     middle = float(np.median(seen[:, 2]))
     reach = int(np.clip(0.9 * radius * eye.focal / max(middle, radius), 1, 24))
-    nearest = smoothed(nearest, reach=reach, step=3.0 * spacing)
+    # Mostly the liquid is in a small part of the picture: the rest needs no work.
+    part = _around(covered, 2 * reach + 2)
+    nearest, thickness, covered = (
+        smoothed(nearest[part], reach=reach, step=3.0 * spacing),
+        thickness[:, *part],
+        covered[part],
+    )
     # Balls overlap by more than their volumes: chords add up to this much more than the layer's true thickness.
     excess = 4.0 / 3.0 * np.pi * BALL**3
     depth = _blurred(thickness, max(reach // 2, 1)) / excess
@@ -109,17 +115,27 @@ def painted(
     hue = (
         np.einsum("khw,kc->hwc", taken, np.array([look.colour for look in looks])) / np.maximum(total, 1e-9)[..., None]
     )
-    normal = _normals(nearest, eye.focal)
+    normal = _normals(nearest, eye.focal, (behind.shape[1] / 2 - part[1].start, behind.shape[0] / 2 - part[0].start))
     bright = np.clip(normal @ SUN, 0.0, 1.0)
     gleam = np.clip(normal @ _halfway(), 0.0, 1.0) ** 60
     edge = (1.0 - np.clip(-normal[..., 2], 0.0, 1.0)) ** 4
     solid = (1.0 - np.exp(-total))[..., None]
-    below = picture.astype(np.float64) / 255.0
+    below = picture[part].astype(np.float64) / 255.0
     body = hue * (0.62 + 0.45 * bright)[..., None]
     shown = below * (1.0 - solid) + body * solid
     shown = shown * (1.0 - 0.18 * edge[..., None]) + 0.55 * gleam[..., None]
-    result = np.where(covered[..., None], shown, below)
-    return np.clip(np.rint(result * 255.0), 0, 255).astype(np.uint8), np.where(covered, solid[..., 0], 0.0)
+    result, taken_away = picture.copy(), np.zeros(behind.shape)
+    lit = np.where(covered[..., None], shown, below)
+    result[part] = np.clip(np.rint(lit * 255.0), 0, 255).astype(np.uint8)
+    taken_away[part] = np.where(covered, solid[..., 0], 0.0)
+    return result, taken_away
+
+
+def _around(covered: BoolArray, margin: int) -> tuple[slice, slice]:
+    """Return the rows and columns of a picture that have anything covered in them, and ``margin`` more on each side."""
+    ends = [np.flatnonzero(covered.any(axis=axis))[[0, -1]] for axis in (1, 0)]
+    rows, columns = (slice(max(int(low) - margin, 0), int(high) + margin + 1) for low, high in ends)
+    return rows, columns
 
 
 def _blurred(layers: FloatArray, reach: int) -> FloatArray:
@@ -135,13 +151,19 @@ def _halfway() -> FloatArray:
     return half / np.linalg.norm(half)
 
 
-def _normals(nearest: FloatArray, focal: float) -> FloatArray:
-    """Return the unit normals of a surface given by its distances, toward the eye, shape (height, width, 3)."""
+def _normals(nearest: FloatArray, focal: float, middle: tuple[float, float]) -> FloatArray:
+    """Return the unit normals of a surface given by its distances, toward the eye, shape (height, width, 3).
+
+    Args:
+        nearest: Distances along the eye's forward axis [m], shape (height, width).
+        focal: Focal length [pixel].
+        middle: Column and row at which the eye looks [pixel].
+    """
     height, width = nearest.shape
     known = nearest < NOTHING
     ahead = np.where(known, nearest, np.nan)
     rows, columns = np.mgrid[0:height, 0:width]
-    points = np.stack([(columns - width / 2) * ahead / focal, (rows - height / 2) * ahead / focal, ahead], axis=-1)
+    points = np.stack([(columns - middle[0]) * ahead / focal, (rows - middle[1]) * ahead / focal, ahead], axis=-1)
     slopes: list[FloatArray] = []
     for axis in (1, 0):
         later = np.roll(points, -1, axis) - points

@@ -6,11 +6,12 @@ import hashlib
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import closing, suppress
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 
 from prolepsis.log.log import Log
+from prolepsis.report.encoding import encoder
 from prolepsis.report.liquid import Picture, painted
 from prolepsis.report.offscreen import Camera, opened_by_parent
 from prolepsis.system.aside import check_replaceable, written_aside
@@ -49,10 +50,9 @@ def render_video(
 
     Raises:
         InputError: If ``speed`` or the file's suffix is wrong, or the log is empty.
+        OSError: If the video cannot be written.
         MissingToolError: If there is no off-screen OpenGL.
     """
-    import imageio_ffmpeg  # pyright: ignore[reportMissingTypeStubs]
-
     target = Path(out).absolute()
     if target.suffix != ".mp4":
         raise InputError(f"{out}: a video's name ends in .mp4")
@@ -66,17 +66,13 @@ def render_video(
         )
     _refuse_size(size)
     ticks = _ticks(log, np.arange(count) * speed / FRAME_RATE)
-    with written_aside(target) as aside:
-        writer: Any = cast(Any, imageio_ffmpeg).write_frames(
-            str(aside), size, fps=FRAME_RATE, codec="libx264", quality=8, macro_block_size=2, ffmpeg_log_level="quiet"
-        )
-        writer.send(None)
-        try:
-            with closing(pictures(log, ticks, size=size)) as shown:
-                for picture in _report(shown, len(ticks), progress):
-                    writer.send(picture)
-        finally:
-            writer.close()
+    with (
+        written_aside(target) as aside,
+        encoder(aside, size, FRAME_RATE) as encode,
+        closing(pictures(log, ticks, size=size)) as shown,
+    ):
+        for picture in _report(shown, len(ticks), progress):
+            encode(picture)
 
 
 def render_frames(
@@ -182,6 +178,9 @@ def pictures(log: Log, ticks: Sequence[int], *, size: tuple[int, int], **view: f
                 continue
             bare = camera.take(stage.show(tick, vessels=False))
             wet, solid = painted(bare, camera.distances(), camera.eye(), *liquid)
+            if not stage.has_vessels(tick):
+                yield wet
+                continue
             # What vessels add is seen over the liquid too, but for their walls behind it.
             added = camera.take(stage.show(tick)).astype(np.float64) - bare
             yield np.clip(wet + added * (1.0 - BEHIND * solid[..., None]), 0, 255).astype(np.uint8)

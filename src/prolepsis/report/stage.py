@@ -89,6 +89,11 @@ class Stage:
         """Return what there is of liquids to be painted at ``tick``, if anything."""
         return self._droplets.at(tick)
 
+    def has_vessels(self, tick: int) -> bool:
+        """Return whether any vessel is seen at ``tick``."""
+        seen = self.visible(tick)
+        return any(seen[i] and self._is_vessel(i) for i, _, _ in self._puppets)
+
     def show(self, tick: int, *, vessels: bool = True) -> Any:
         """Put every thing at its pose of ``tick`` and return the state; without ``vessels`` these are not seen."""
         seen = self.visible(tick)

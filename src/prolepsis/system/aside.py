@@ -33,6 +33,8 @@ _LONGEST = 40
 """Characters of a name that its workplace's has."""
 _HERE, _EXCHANGE = -100, 2
 """AT_FDCWD and RENAME_EXCHANGE of Linux."""
+_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+"""There is no more room on the disk, for the user, or in a file; what has written has no name for the place."""
 _NOT_HERE = (errno.ENOSYS, errno.EINVAL, errno.ENOTSUP)
 
 
@@ -85,9 +87,21 @@ def written_aside(target: Path, ours: Ours | None = None) -> Generator[Path]:
 
     Raises:
         InputError: If ``target`` may not be replaced.
+        OSError: If it cannot be written; where the disk is full, with the folder as its ``filename``.
     """
     target = Path(os.path.realpath(target))
     _check(target, ours)
+    try:
+        with _written_aside(target, ours) as aside:
+            yield aside
+    except OSError as error:
+        if error.errno not in _FULL:
+            raise
+        raise OSError(error.errno, error.strerror, str(target.parent)) from error
+
+
+@contextmanager
+def _written_aside(target: Path, ours: Ours | None) -> Generator[Path]:
     target.parent.mkdir(parents=True, exist_ok=True)
     for left in _workplaces(target):
         _clear_left(left, target, ours)
