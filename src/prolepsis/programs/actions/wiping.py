@@ -67,8 +67,8 @@ def wipe(
     deadline = sense.time + TOO_DEEP / APPROACH_SPEED + SETTLING + TOO_LONG
     here, depth, sinking, settled, ticks, total = start.offset, 0.0, 0.0, 0.0, 0, 0.0
 
-    def at(way: Triple, velocity: Triple) -> HandTarget:
-        offset = (here[0] + way[0], here[1] + way[1], here[2] + way[2] - depth)
+    def at(step: Triple, velocity: Triple) -> HandTarget:
+        offset = (here[0] + step[0], here[1] + step[1], here[2] + step[2] - depth)
         return HandTarget(hand=hand.name, offset=offset, velocity=velocity, rotation=start.rotation)
 
     while settled < SETTLING:
@@ -79,8 +79,8 @@ def wipe(
         touches = sense.pressing(object.name, surface.name) > 0.0
         settled += TICK * touches
         growing = (force - resting + sense.hands[hand.name].load()[2]) / start.stiffness * RATE
-        on_the_way = min(APPROACH_SPEED, sinking + APPROACH_SPEED / EASING * TICK)
-        sinking = growing if touches or growing < 0.0 else on_the_way
+        approaching = min(APPROACH_SPEED, sinking + APPROACH_SPEED / EASING * TICK)
+        sinking = growing if touches or growing < 0.0 else approaching
         depth += sinking * TICK
         sense = yield (at((0.0, 0.0, 0.0), (0.0, 0.0, -sinking)),)
     x, y, z = displacement
