@@ -46,7 +46,7 @@ IN_SITUATION: list[tuple[str, str, str]] = [
     (FRICTION, ':friction "nan"', "s.ttl:4: egg1: friction = nan: must be finite and greater than 0"),
     (FRICTION, ":friction true", "s.ttl:4: egg1: friction must be a number, with or without a unit, not 'true'"),
     (":floor a", ":y1 a :EggYolk .\n:floor a", "s.ttl:2: y1 is part of nothing: EggYolk must be a part of a Egg"),
-    (EGG, ":egg1 a :Egg , :ForceLevel ;", "the knowledge base contradicts itself: no ForceLevel is a PhysicalObject"),
+    (EGG, ":egg1 a :Egg , :ForceLevel ;", "egg1 is a ForceLevel (s.ttl:4); no ForceLevel is a PhysicalObject"),
     (":table1 a :Table .", ":table1 a :Table", "s.ttl:4: Turtle syntax: "),
     (":floor a :Floor .", ":floor a flor:Floor .", "s.ttl:2: Turtle syntax: "),
 ]

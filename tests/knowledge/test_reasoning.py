@@ -83,6 +83,7 @@ def test_a_class_that_can_have_no_individual_is_refused_by_name(tmp_path: Path) 
     message = str(caught.value)
     assert "every LiquidStone is a Solid" in message and "every LiquidStone is a Liquid" in message
     assert "there can be a LiquidStone" in message and "situation.ttl:4" in message and "\n" not in message
+    assert len(caught.value.conflict) > 3
 
 
 def test_an_unused_class_that_can_have_individuals_is_taken(tmp_path: Path) -> None:

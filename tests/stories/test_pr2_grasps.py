@@ -34,6 +34,7 @@ def test_after_a_good_grasp_the_egg_is_attached_to_the_gripper(good: Projection)
     assert good.ask("occurs(picking_up(rightGripper,egg1), _)")
 
 
+@pytest.mark.filterwarnings("ignore:near its threshold")
 def test_after_a_crushing_grasp_the_egg_is_broken(crushing: Projection) -> None:
     found = {(str(a["Type"]), a["Args"]) for a in crushing.ask(QUERY.format(level="force12"))}
     assert ("broken", ("egg1",)) in found

@@ -286,8 +286,8 @@ def entailed_probes(
 def contradiction(axioms: tuple[Axiom, ...]) -> InconsistentError:
     """Return the error for axioms that contradict each other: the few that do, as a person would say them.
 
-    Where the line has no room for all and their files, those of a user's own files come first, and the ontology's
-    without theirs.
+    Where the line has no room for all and their files, those of a user's own files come first, by the files' names,
+    and the ontology's without theirs.
     """
     told = "the knowledge base contradicts itself: "
     try:
@@ -301,7 +301,7 @@ def contradiction(axioms: tuple[Axiom, ...]) -> InconsistentError:
     line = f"{told}{'; '.join(whole)}"
     if len(line) <= LONGEST_LINE:
         return InconsistentError(line, whole)
-    own = [text for axiom, text in zip(found, whole, strict=True) if not _is_built_in(axiom)]
+    own = [f"{axiom.reading} ({axiom.where.rpartition('/')[2]})" for axiom in found if not _is_built_in(axiom)]
     texts = [*own, *(axiom.reading for axiom in found if _is_built_in(axiom))]
     kept = len(texts)
     while kept > 1 and len(line := _few(told, texts, kept)) > LONGEST_LINE:

@@ -127,7 +127,7 @@ def _blocked(hand: Thing, width: float, sense: Sense) -> ActionFailedError:
 def within_workspace(scene: Scene, *, hand: Thing, object: Thing, short: float, **_: object) -> None:
     """Refuse an object that the hand cannot get to or around, or a place beyond its end."""
     half = extent_along(object, longest_axis(object)) / 2
-    if short >= half:
+    if short > 0 and short >= half:
         raise PlanError(
             f"plan: {short * 1000:.0f} mm short of the middle of {object.name} is beyond its end, "
             f"which is {half * 1000:.0f} mm from there"
