@@ -375,6 +375,7 @@ property(probeRadius, m).
 property(radius, m).
 property(recedingAngle, rad).
 property(recoveryTime, s).
+property(restitution, '1').
 property(roll, rad).
 property(saturation, '1').
 property(scale, '1').
