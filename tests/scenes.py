@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -15,7 +16,8 @@ from prolepsis.knowledge import KnowledgeBase
 from prolepsis.log.log import Log
 from prolepsis.programs import read_program
 from prolepsis.scenario.file import DEFAULT_PARTICLES
-from prolepsis.scene.kind import Controller
+from prolepsis.scene.kind import Controller, Kind
+from prolepsis.scene.running import Running
 from prolepsis.scene.scene import Scene
 from prolepsis.terms.reader import parse_term
 
@@ -44,11 +46,33 @@ def run(
     *,
     values: Mapping[str, float | str] | None = None,
     particles: int = DEFAULT_PARTICLES,
+    thrown: Mapping[str, Sequence[float]] | None = None,
     **options: Any,
 ) -> Log:
-    """Return the log of a plan in a situation; ``options`` are those of ``simulate``."""
+    """Return the log of a plan in a situation.
+
+    ``thrown`` tells velocities at the start [m/s, rad/s], six numbers by thing; ``options`` are those of ``simulate``.
+    """
     composed = scene(turtle, values, particles)
+    if thrown:
+        composed = replace(composed, kinds=(*composed.kinds, Throwing(thrown)))
     return simulate(compile_world(composed), read_program(parse_term(plan), composed), **options)
+
+
+class Throwing(Kind):
+    """Gives things a velocity at the start."""
+
+    order = 99
+
+    def __init__(self, velocities: Mapping[str, Sequence[float]]) -> None:
+        """Give things velocities [m/s, rad/s], six numbers by thing."""
+        self.velocities = velocities
+
+    def start(self, state: Running) -> Sequence[Controller]:
+        """Give them their velocities."""
+        for name, velocity in self.velocities.items():
+            state.data.joint(name).qvel[:] = velocity
+        return ()
 
 
 def started(state: State, type: type[Acting]) -> list[Acting]:

@@ -10,10 +10,12 @@ from typing import Any
 
 import numpy as np
 
+from prolepsis.engine.approaching import Approaching
 from prolepsis.engine.binding import Binding
 from prolepsis.engine.channels import Channels, chosen_channels
 from prolepsis.engine.crossing import crossings
 from prolepsis.engine.gaining import Surroundings, gains
+from prolepsis.engine.impacts import Impacts, moves
 from prolepsis.engine.reaching import reaches
 from prolepsis.engine.recording import Frames, Recorder
 from prolepsis.engine.sinking import sinkings
@@ -88,6 +90,9 @@ def simulate(
     )
     controls = Controls.of(state)
     recorder = Recorder()
+    approaching, impacts = Approaching(), Impacts()
+    approaching.bind(state)
+    impacts.bind(state)
     frames = Frames()
     channels = Channels(chosen_channels(world.scene, monitors))
     running: dict[Term, list[Action]] = {}
@@ -101,6 +106,8 @@ def simulate(
             return False
         recorder.note_version(state)
         controls.bind(state)
+        approaching.bind(state)
+        impacts.bind(state)
         return True
 
     tick = 0
@@ -138,17 +145,21 @@ def simulate(
                 renewed()
         if state.splits:
             state.softening.renew(state.model, state.data)
-        step = max_step
+        fast = moves(state)
+        step = min(max_step, approaching.longest_step(state)) if fast else max_step
         for each in stepping:
             step = min(step, each.longest_step(state))
         count = math.ceil(TICK / step - 1e-9)
         model, data = state.model, state.data
         model.opt.timestep = TICK / count
-        together = 1 if [each for each in looking if not each.is_steady()] else count
+        together = 1 if fast or [each for each in looking if not each.is_steady()] else count
         for _ in range(count // together):
             # Physics step.
-            mujoco.mj_step(model, data, together)
-            velocity = data.qvel
+            if fast:
+                impacts.step(model, data)
+            else:
+                mujoco.mj_step(model, data, together)
+            velocity = data.qvel * approaching.lever
             if not velocity.dot(velocity) <= MAX_SPEED**2 * model.nv:
                 _refuse(state, tick)
             recorder.substep(state, tick, TICK * together / count)

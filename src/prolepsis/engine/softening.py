@@ -1,4 +1,4 @@
-"""How stiff static friction is: softer while pieces are squeezed, or the solver would diverge."""
+"""How stiff contacts are: all softer once there are pieces, and static friction while these are squeezed."""
 
 from __future__ import annotations
 
@@ -14,6 +14,10 @@ from prolepsis.log.things import Thing
 STIFF, SOFT = 100.0, 10.0
 """Friction over normal impedance [1]. Static friction is regularized: at 1 what is gripped creeps by 2 mm/s, at 100 by
 less than 0.05 to 0.2. While pieces are squeezed the solver diverges at 100, and what is gripped creeps more."""
+SMOOTH_SOLREF = (0.005, 1.0)
+SMOOTH_SOLIMP = (0.0, 0.95, 0.001, 0.5, 2.0)
+"""Contact of things among which there are pieces: a smooth onset, so that it gives by 0.3 mm. What is hard shoots away
+the light pieces that are squeezed against it, or presses them through others."""
 SQUEEZED = 1.0
 """Normal force of a contact with a piece above which it is squeezed [N]; at rest it is half of that."""
 LINGERING = 0.1
@@ -29,9 +33,14 @@ class Softening:
     until: float = 0.0
     """[s]"""
 
-    def bind(self, body_thing: IntArray, things: Sequence[Thing]) -> None:
+    def bind(self, model: Any, body_thing: IntArray, things: Sequence[Thing]) -> None:
         """Look up which bodies are pieces in a model that is new, given which thing each body is."""
         self.pieces = np.isin(body_thing, [i for i, thing in enumerate(things) if "Piece" in thing.roles])
+        if self.pieces.any():
+            emerged = np.array([thing.emerges for thing in things] + [False])
+            others = ~emerged[body_thing[model.geom_bodyid]]
+            model.geom_solref[others], model.geom_solimp[others] = SMOOTH_SOLREF, SMOOTH_SOLIMP
+            model.geom_margin[others] = 0.0
 
     def begin(self, model: Any, data: Any) -> None:
         """Let pieces that have just come about count as squeezed: a moment ago they were pressed."""

@@ -113,7 +113,7 @@ class State:
         index = {thing.name: i for i, thing in enumerate(self.scene.things)}
         names = [self.model.body(body).name for body in range(self.model.nbody)]
         self.body_thing = np.array([index.get(name, -1) for name in names])
-        self.softening.bind(self.body_thing, self.scene.things)
+        self.softening.bind(self.model, self.body_thing, self.scene.things)
         self.pushes.bind(self._body_names, names)
         self._body_names = names
 

@@ -1,0 +1,103 @@
+"""Ordinary solids topple, fall, slide and rebound as closed forms tell."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from tests.laws.solid_scenes import (
+    G,
+    overhanging,
+    passes,
+    random_tower,
+    rebound,
+    slide,
+    slipped,
+    topples,
+    tower_falls,
+)
+
+pytestmark = pytest.mark.laws
+
+WOOD = ":density 600.0 ; :restitution 0.55 ; :youngsModulus 10.0e9"
+GLASS = ":density 2500.0 ; :restitution 0.94 ; :youngsModulus 70.0e9"
+STEEL = ":density 7800.0 ; :restitution 0.6 ; :youngsModulus 200.0e9"
+RUBBER = ":density 1100.0 ; :restitution 0.83 ; :youngsModulus 3.0e6"
+STONE = ":restitution 0.6 ; :youngsModulus 50.0e9"
+FIXED_WOOD = ":restitution 0.55 ; :youngsModulus 10.0e9"
+FIXED_STEEL = ":restitution 0.6 ; :youngsModulus 200.0e9"
+
+
+@pytest.mark.parametrize(("length", "height"), [(0.03, 0.1), (0.05, 0.1), (0.08, 0.1), (0.01, 0.03), (0.1, 0.4)])
+def test_a_block_topples_once_its_weight_is_beyond_its_edge(length: float, height: float) -> None:
+    angle = math.degrees(math.atan(length / height))
+    assert not topples(length, height, angle - 0.3)
+    assert topples(length, height, angle + 0.3)
+
+
+@pytest.mark.parametrize(
+    ("count", "size"),
+    [
+        (1, (0.3, 0.05, 0.01)),
+        (1, (0.2, 0.1, 0.06)),
+        (2, (0.2, 0.1, 0.06)),
+        (3, (0.2, 0.1, 0.06)),
+        (5, (0.2, 0.1, 0.06)),
+        (4, (0.05, 0.03, 0.015)),
+    ],
+)
+def test_bricks_hang_over_by_half_of_the_harmonic_series(count: int, size: tuple[float, float, float]) -> None:
+    assert not overhanging(count, size, 0.99)
+    assert overhanging(count, size, 1.01)
+
+
+@pytest.mark.parametrize("number", range(48))
+def test_a_tower_falls_if_what_is_above_a_face_is_not_over_it(number: int) -> None:
+    tower = random_tower(np.random.default_rng(number))
+    assert tower_falls(tower) == (tower.margin < 0.0), f"{1000.0 * tower.margin:.2f} mm"
+
+
+@pytest.mark.parametrize("height", [0.1, 0.5, 2.0])
+@pytest.mark.parametrize(
+    ("material", "below", "expected"),
+    [
+        (WOOD, FIXED_WOOD, 0.55),
+        (WOOD, FIXED_STEEL, 0.55),
+        (STEEL, FIXED_WOOD, 0.55),
+        (STEEL, FIXED_STEEL, 0.6),
+        (GLASS, STONE, 0.76),
+        (RUBBER, STONE, 0.83),
+        (RUBBER, FIXED_WOOD, 0.83),
+    ],
+    ids=["wood-wood", "wood-steel", "steel-wood", "steel-steel", "glass-stone", "rubber-stone", "rubber-wood"],
+)
+def test_a_ball_rebounds_as_its_material_and_that_below_allow(
+    height: float, material: str, below: str, expected: float
+) -> None:
+    assert rebound(height, material, below) == pytest.approx(expected, abs=0.02)
+
+
+@pytest.mark.parametrize(("friction", "speed"), [(0.3, 0.1), (0.3, 0.5), (0.3, 2.0), (0.1, 2.0), (0.3, 4.0)])
+def test_what_slides_stops_after_its_energy_over_its_friction_and_does_not_hop(friction: float, speed: float) -> None:
+    found = slide(friction, speed)
+    # In the first millisecond the sole finds its contacts.
+    assert found.distance == pytest.approx(speed**2 / (2.0 * friction * G), rel=0.005, abs=1e-3 * speed)
+    assert found.rise < 2e-5
+    if speed > 0.3:
+        assert found.force == pytest.approx((1.0, 1.0), abs=0.05)
+
+
+@pytest.mark.parametrize("friction", [0.2, 0.4, 0.6])
+def test_a_block_slips_once_the_slope_is_steeper_than_its_friction(friction: float) -> None:
+    angle = math.degrees(math.atan(friction))
+    assert slipped(friction, angle - 0.3)[-1] < 1e-5
+    tilt = math.radians(angle + 0.3)
+    acceleration = G * (math.sin(tilt) - friction * math.cos(tilt))
+    assert slipped(friction, angle + 0.3)[-1] == pytest.approx(acceleration * 2.0, rel=0.02)
+
+
+@pytest.mark.parametrize(("pitch", "roll"), [(0.0, 0.0), (10.0, 0.0), (45.0, 0.0), (45.0, 35.0)])
+@pytest.mark.parametrize("speed", [0.1, 1.0, 3.0, 5.0, 10.0, 20.0])
+def test_nothing_goes_through_a_plate(speed: float, pitch: float, roll: float) -> None:
+    assert not passes(speed, pitch, roll)
