@@ -45,7 +45,7 @@ class Approaching:
     reach: FloatArray = field(default_factory=lambda: np.zeros(0))
     """How far they reach from their centre of mass [m], shape (F,)."""
     arm: FloatArray = field(default_factory=lambda: np.zeros(0))
-    """Fastest approach of their surface when they turn on the spot, over how fast they rotation [m], shape (F,)."""
+    """Fastest approach of their surface when they turn on the spot, over how fast they turn [m], shape (F,)."""
     thin: FloatArray = field(default_factory=lambda: np.zeros(0))
     """Thickness of the thinnest solid of each [m], shape (F,)."""
     lever: FloatArray = field(default_factory=lambda: np.zeros(0))

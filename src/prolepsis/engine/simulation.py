@@ -146,17 +146,19 @@ def simulate(
         if state.splits:
             state.softening.renew(state.model, state.data)
         fast = moves(state)
-        step = min(max_step, approaching.longest_step(state)) if fast else max_step
+        needed = approaching.longest_step(state) if fast else max_step
+        step = min(max_step, needed)
         for each in stepping:
             step = min(step, each.longest_step(state))
         count = math.ceil(TICK / step - 1e-9)
         model, data = state.model, state.data
         model.opt.timestep = TICK / count
-        together = 1 if fast or [each for each in looking if not each.is_steady()] else count
+        together = 1 if needed < max_step or [each for each in looking if not each.is_steady()] else count
         for _ in range(count // together):
             # Physics step.
             if fast:
-                impacts.step(model, data)
+                for _ in range(together):
+                    impacts.step(model, data)
             else:
                 mujoco.mj_step(model, data, together)
             velocity = data.qvel * approaching.lever
