@@ -77,3 +77,11 @@ def test_a_stack_at_rest_stays_at_rest() -> None:
     log = run(turtle, duration=1.0)
     height = log.poses[-500:, [log.index(f"b{k}") for k in range(4)], 2]
     assert np.ptp(height, axis=0).max() < 1e-7
+
+
+def test_the_force_of_a_blow_hangs_on_no_substep() -> None:
+    # Momentum over the time that a blow lasts; a substep is shorter the higher the ball falls from.
+    for height in (0.2, 1.0):
+        log = run(FLOOR + ball("b", 0.03, f":z {0.03 + height!r}"), duration=math.sqrt(2.0 * height / 9.81) + 0.02)
+        impulse = log.things[log.index("b")].mass * math.sqrt(2.0 * 9.81 * height) * 1.557
+        assert log.contacts.peak.max() == pytest.approx(impulse / 2.5e-4, rel=0.02)

@@ -26,6 +26,9 @@ from prolepsis.terms.errors import InputError, brief_list
 
 NOWHERE = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
 """The pose of what is where its carrier is, or has never been seen."""
+BLOW = 2.5e-4
+"""So long a blow between hard things counts as lasting [s], whatever the substep that it is spent in: wood on wood,
+of some tens of grams at 1 to 3 m/s, lasts 0.2 to 0.3 ms (Hertz)."""
 TOGETHER = 128
 """Ticks whose poses are computed together: they fit into a processor's cache."""
 
@@ -50,8 +53,8 @@ class Recorder:
 
     versions: list[_Version] = field(default_factory=list["_Version"])
     poses: list[tuple[int, FloatArray, FloatArray]] = field(default_factory=list[tuple[int, FloatArray, FloatArray]])
-    contacts: list[tuple[int, int, float, IntArray, IntArray, FloatArray, FloatArray, FloatArray]] = field(
-        default_factory=list[tuple[int, int, float, IntArray, IntArray, FloatArray, FloatArray, FloatArray]]
+    contacts: list[tuple[int, int, float, IntArray, IntArray, FloatArray, FloatArray, FloatArray, float]] = field(
+        default_factory=list[tuple[int, int, float, IntArray, IntArray, FloatArray, FloatArray, FloatArray, float]]
     )
     deep: list[tuple[int, int, IntArray, FloatArray]] = field(
         default_factory=list[tuple[int, int, IntArray, FloatArray]]
@@ -92,8 +95,8 @@ class Recorder:
             )
         )
 
-    def substep(self, state: State, tick: int, step: float) -> None:
-        """Copy the contacts of one substep of length ``step`` [s]."""
+    def substep(self, state: State, tick: int, step: float, *, blows: bool = False) -> None:
+        """Copy the contacts of one substep of length ``step`` [s], in which ``blows`` may be spent whole."""
         data = state.data
         if data.ncon:
             contact, version = data.contact, len(self.versions) - 1
@@ -108,6 +111,7 @@ class Recorder:
                     contact.frame.copy(),
                     contact.pos.copy(),
                     data.efc_force.copy(),
+                    min(1.0, step / BLOW) if blows else 1.0,
                 )
             )
             # Of few numbers, Python's is the faster minimum.
@@ -259,8 +263,11 @@ class Recorder:
         # The peak is that of the pair at one substep, so contact points of the same substep add up first.
         substep = np.repeat(np.arange(len(self.contacts)), counts)[active][keep]
         moments = begins | (np.diff(substep[order], prepend=-1) != 0)
-        at_once = np.bincount(np.cumsum(moments) - 1, weights=normal_force[keep][order])
+        share = np.repeat(np.array([row[8] for row in self.contacts]), counts)[active]
+        at_once = np.bincount(np.cumsum(moments) - 1, weights=(normal_force * share)[keep][order])
         peak = np.maximum.reduceat(at_once, np.flatnonzero(begins[moments])) if size else np.zeros(0)
+        if (share < 1.0).any():
+            peak = np.maximum(peak, total / dt)
         return Contacts(
             tick=rows[:, 0],
             a=rows[:, 1],

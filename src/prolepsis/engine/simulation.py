@@ -164,7 +164,7 @@ def simulate(
             velocity = data.qvel * approaching.lever
             if not velocity.dot(velocity) <= MAX_SPEED**2 * model.nv:
                 _refuse(state, tick)
-            recorder.substep(state, tick, TICK * together / count)
+            recorder.substep(state, tick, TICK * together / count, blows=needed < max_step)
             # Matter, in its one order.
             for acting in working:
                 acting.act(state)
