@@ -185,6 +185,11 @@ class State:
         if centres:
             mujoco.mj_comPos(self.model, self.data)
 
+    def renew_forces(self) -> None:
+        """Make contacts and forces those of the coming substep."""
+        mujoco.mj_forward(self.model, self.data)
+        self._forces_at = self._pairs_at = (-1, 0.0)
+
     def velocity(self, name: str) -> FloatArray:
         """Return the velocity of a thing's carrier [m/s], shape (3,); zeros if it has none."""
         carrier = int(self.carrier[self.scene.index(name)])
@@ -198,8 +203,8 @@ class State:
     def _twist(self, body: str) -> FloatArray:
         """Return angular [rad/s] and linear velocity [m/s] of a MuJoCo body's frame, world axes, shape (6,)."""
         twist = np.zeros(6)
-        number = self.model.body(body).id
-        mujoco.mj_objectVelocity(self.model, self.data, mujoco.mjtObj.mjOBJ_XBODY, number, twist, 0)
+        number, kind = self.model.body(body).id, mujoco.mjtObj.mjOBJ_XBODY
+        mujoco.mj_objectVelocity(self.model, self.data, kind, number, twist, 0)
         return twist
 
     def normal_forces(self) -> list[tuple[int, int, int, float]]:
@@ -255,18 +260,16 @@ class State:
     def contact_forces(self) -> ContactForces:
         """Return the active contacts of the last substep."""
         contact = self.data.contact
-        address = contact.efc_address
-        active = address >= 0
-        rows = address[active]
+        active = contact.efc_address >= 0
+        rows = contact.efc_address[active]
         geoms = contact.geom[active]
-        frames = contact.frame[active].reshape(-1, 3, 3)
         local = self.data.efc_force[rows[:, None] + np.arange(3)]
         return ContactForces(
             numbers=np.flatnonzero(active),
             geoms=geoms,
             bodies=self.model.geom_bodyid[geoms],
             normal_force=local[:, 0],
-            force=np.einsum("cij,ci->cj", frames, local),
+            force=np.einsum("cij,ci->cj", contact.frame[active].reshape(-1, 3, 3), local),
             points=contact.pos[active],
         )
 
@@ -285,23 +288,20 @@ class State:
         if hanging:
             raise InputError(f"{body_name} cannot fall apart: {brief_list(hanging)} hangs on it by a joint")
         old = self.data.body(body_name)
-        origin, orientation = old.xpos.copy(), old.xquat.copy()
+        origin, before = old.xpos.copy(), np.array([*old.xpos, *old.xquat])
         velocity = self._twist(body_name)
         old_thing = int(self.body_thing[self.model.body(body_name).id])
-        groups = fragments
-        poses = {i: compose_pose(np.array([*origin, *orientation]), self.offsets[i]) for group in groups for i in group}
+        poses = {i: compose_pose(before, self.offsets[i]) for group in fragments for i in group}
         for pair in list(self.spec.pairs):
             if body_name in (pair.geomname1.rsplit("/", 1)[0], pair.geomname2.rsplit("/", 1)[0]):
                 self.spec.delete(pair)
         self.spec.delete(self.spec.body(body_name))
-        for group in groups:
-            lead = things[group[0]]
-            body = self.spec.worldbody.add_body(
-                name=lead.name, pos=list(poses[group[0]][:3]), quat=list(poses[group[0]][3:])
-            )
-            body.add_freejoint(name=lead.name)
+        for group in fragments:
+            lead, pose = things[group[0]].name, poses[group[0]]
+            body = self.spec.worldbody.add_body(name=lead, pos=list(pose[:3]), quat=list(pose[3:]))
+            body.add_freejoint(name=lead)
             for i in group:
-                self.offsets[i] = relative_pose(poses[group[0]], poses[i])
+                self.offsets[i] = relative_pose(pose, poses[i])
                 self.carrier[i] = group[0]
                 offset = self.offsets[i][:3]
                 for k in range(len(things[i].shape.geoms)):
@@ -314,13 +314,13 @@ class State:
                         mass=things[i].mass / len(things[i].shape.geoms),
                         offset=(float(offset[0]), float(offset[1]), float(offset[2])),
                     )
-        if old_thing not in {i for group in groups for i in group}:
+        if old_thing not in {i for group in fragments for i in group}:
             whole = np.flatnonzero(self.carrier == old_thing)
             self.carrier[whole] = -1
         self.splits += 1
         self._rebuild()
         self.softening.begin(self.model, self.data)
-        for group in groups:
+        for group in fragments:
             joint = self.data.joint(things[group[0]].name)
             pose = poses[group[0]]
             joint.qpos[:] = pose
@@ -373,7 +373,7 @@ class State:
         # Rebuilding starts the count of warnings again.
         self.warnings += int(self.data.warning.number.sum())
         points = self.joining.points(self.model)
-        pairs = [self.model.pair(number) for number in range(self.model.npair)]
+        pairs = map(self.model.pair, range(self.model.npair))
         contacts = {each.name: (each.solref.copy(), each.solimp.copy(), each.margin.copy()) for each in pairs}
         self.model, self.data = self.spec.recompile(self.model, self.data)
         # Compiling puts the second point where it would be in the first posture, which may be centimetres off.

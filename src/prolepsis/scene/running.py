@@ -122,6 +122,10 @@ class Running(Protocol):
         """Bring poses, and centres of mass if wanted, up to the present: after a step they are those before it."""
         ...
 
+    def renew_forces(self) -> None:
+        """Make contacts and forces those of the coming substep: after a substep they are its own."""
+        ...
+
     def velocity(self, name: str) -> FloatArray:
         """Return the velocity of a thing's carrier [m/s], shape (3,); zeros if it has none."""
         ...

@@ -17,8 +17,9 @@ from prolepsis.geometry.shape import FloatArray
 from prolepsis.log.happenings import Happening, detachment
 from prolepsis.matter.shells.bond_graph import BondGraph
 from prolepsis.matter.shells.calibration import calibrated_graph
-from prolepsis.matter.shells.cascade import Cascade, Cracking, Pressing, cascade
-from prolepsis.matter.shells.contact import ShellContact, ShellDents
+from prolepsis.matter.shells.cascade import Cascade, Cracking, Pressing, cascade, onset
+from prolepsis.matter.shells.contact import DAMPING_RATIO, ShellContact, closing_speed, shares_before
+from prolepsis.matter.shells.dents import ShellDents
 from prolepsis.matter.shells.parts import Shell
 from prolepsis.scene.kind import Controller
 from prolepsis.scene.running import MAX_STEP, Running
@@ -31,6 +32,12 @@ at its pole. What is lighter and stiffer takes shorter ones."""
 STEADY_STEP = 2.0
 """Under one steady contact a substep is longer by this factor [1]: there is no impact to follow, and contact is stable
 below 2 rad. Several contacts are as stiff as all of them together."""
+IMPACT_SHARE = 0.5
+"""What comes closer does so in a substep by at most this part of what the shell gives until it breaks [1]."""
+SHORTEST_STEP = 1.5e-5
+"""No substep is shorter than this [s]."""
+DAMPED = 0.1
+"""Share of the force under which a dent goes in that damping makes at most [1]."""
 BETWEEN_SAMPLES = 0.9
 """Margin of the screen for contacts between its sampled points [1]."""
 LIGHT = 0.2
@@ -123,20 +130,26 @@ class Breaking(Controller):
         """Greatest bond load over strength in the tick [1]; 0 while the screen shows that none can break."""
         self.force = 0.0
         """Greatest sum of normal forces on one body in the tick [N]."""
+        self.pressed_in = 0.0
+        """Depth of the deepest dent so far, over that at which it is pressed through [1]."""
         self._pressed_most, self._touches = -1, 0
-        self._changed = False
-        self._fresh = True
+        self._changed, self._fresh = False, True
         self._ticks = 0
         self._steady = False
         self._calm = False
         self._active = -1
         self._last: tuple[int, dict[int, float]] = (-1, {})
+        self._approach = 0.0
+        """Speed with which something comes closer [m/s]."""
+        self._before: list[tuple[int, int, int, float]] = []
+        """Contact forces in the substep before."""
         self._watched: dict[int, Fragment] = {}
         self._number, self._is_near = -1, False
         self._contact = ShellContact(state, thing, quantities["plateStiffness"], quantities["poleStiffnessRatio"])
         self._dents = ShellDents(thing, self._cracking.bears, quantities.get("shellMembraneStretch", 0.0))
-        self._contact.update(state, None)
+        self._contact.update(state, -1)
         stiffest = 2 * quantities["plateStiffness"] * math.sqrt(quantities["poleStiffnessRatio"])
+        self._mass, self._give = thing.mass, breaking_force / stiffest
         self._contact_step = min(CONTACT_STEP, CONTACT_PHASE * math.sqrt(thing.mass / stiffest))
 
     def bind(self, state: Running) -> None:
@@ -154,16 +167,18 @@ class Breaking(Controller):
         self._ticks += 1
         self._fresh = self._ticks % LOOK_TICKS == 0
         self._is_near = self.intact and self._near(state)
+        self._approach = closing_speed(state, self._number) if self._is_near else 0.0
         if self.intact and (self._fresh or not self._calm):
             pressed = self._is_near and 0 <= self._pressed_most < state.data.ncon
-            self._contact.update(state, state.data.contact.pos[self._pressed_most] if pressed else None)
+            self._contact.update(state, self._pressed_most if pressed else -1, self._damping())
 
     def longest_step(self, state: Running) -> float:
         """Return the longest substep that it can do with in the coming tick [s]."""
         if not self._is_near:
             return MAX_STEP
         longer = STEADY_STEP / math.sqrt(self._touches) if self._calm and self._touches else 1.0
-        return self._contact_step * max(longer, 1.0)
+        step = self._contact_step * max(longer, 1.0)
+        return min(step, max(IMPACT_SHARE * self._give / max(self._approach, 1e-9), SHORTEST_STEP))
 
     def is_steady(self) -> bool:
         """Return whether no bond can come to break within a tick, so that its substeps need no look one by one.
@@ -178,8 +193,10 @@ class Breaking(Controller):
             self._steady = False
             return
         totals = self._contact_totals(state)
+        if self.intact and self._foresees(state, totals):
+            state.renew_forces()
+            totals = self._contact_totals(state)
         self._compare(state, totals)
-        self.force = max(self.force, *totals.values(), 0.0)
         detached: list[Happening] = []
         for body, total in totals.items():
             fragment = self._watched[body]
@@ -190,8 +207,13 @@ class Breaking(Controller):
         if self.intact and self._dents:
             self._steady = False
             through = self._dents.grow(state)
+            self.pressed_in = max(self.pressed_in, self._dents.share)
             if through and not self.fragments[0].parts:
                 detached += self._punch(state, through)
+            totals = {} if through else self._contact_totals(state)
+        self.force = max(self.force, *totals.values(), 0.0)
+        if self.intact:
+            self._before = state.normal_forces()
         for each in detached:
             state.report(each)
         if self._changed:
@@ -201,9 +223,9 @@ class Breaking(Controller):
             self._fall_apart(state)
 
     def end_tick(self, state: Running) -> None:
-        """Tell load and force."""
-        state.set_attribute(self.thing.name, "load", self.load)
-        state.set_attribute(self.thing.name, "force", self.force)
+        """Tell load, force and how far it is pressed in."""
+        for name, value in (("load", self.load), ("force", self.force), ("pressed_in", self.pressed_in)):
+            state.set_attribute(self.thing.name, name, value)
 
     def _compare(self, state: Running, totals: dict[int, float]) -> None:
         """Find out whether the contacts are as they were when last looked at."""
@@ -260,7 +282,11 @@ class Breaking(Controller):
             return self._dents.shares(state, pressing.numbers, pressing.normal, relief)
 
         # A crack runs faster than what presses moves: the force falls before that has come any farther.
-        made = self._cascade(fragment.graph, pressing, shares(), shares)
+        first = shares()
+        if self.intact:
+            before = shares_before(state, self._number, self._before, pressing.numbers)
+            first = onset(fragment.graph, pressing, np.minimum(before, first), first)
+        made = self._cascade(fragment.graph, pressing, first, shares)
         fragment.load = made.load
         fragment.rows = forces.copy()
         if not made.changed:
@@ -269,8 +295,21 @@ class Breaking(Controller):
         fragment.set(made.parts)
         if self.intact:
             eased = made.shares < 1
-            self._dents.begin(state, pressing.numbers[eased], (made.shares * pressing.normal)[eased])
-        return self._detached(made.broken, float(pressing.normal.max()))
+            borne = (made.shares * pressing.normal)[eased]
+            self._dents.begin(state, pressing.numbers[eased], borne, self._contact.stiffness)
+            self._contact.update(state, self._pressed_most, self._damping())
+        return self._detached(made.broken, float((first * pressing.normal).max()))
+
+    def _foresees(self, state: Running, totals: dict[int, float]) -> bool:
+        """Return whether what comes closer may press hard enough in the coming substep for something to give way."""
+        rise = self._contact.stiffness * self._approach * float(state.model.opt.timestep)
+        limit = min(self.fragments[0].calm, self._dents.yields)
+        return rise > STEADY_CHANGE * limit and max(totals.values(), default=0.0) + rise >= limit
+
+    def _damping(self) -> float:
+        """Return the damping ratio of its contacts [1]: so small that what yields is not pressed by damping alone."""
+        fast = 2 * self._approach * math.sqrt(self._contact.stiffness * self._mass)
+        return min(DAMPING_RATIO, DAMPED * self._dents.yields / max(fast, 1e-9))
 
     def _cascade(
         self, graph: BondGraph, pressing: Pressing, shares: FloatArray, ease: Callable[[float], FloatArray]
@@ -293,11 +332,11 @@ class Breaking(Controller):
         parts = cracked.without(cracked.round_pieces(pieces)).fragments()
         rest = max(parts, key=lambda part: len(part.nodes))
         pressing = self._pressing(state, body.id, fragment)
-        all_of_it = np.ones(len(pressing.normal))
-        made = self._cascade(rest.assembled(), pressing, all_of_it, lambda _: all_of_it)
+        shares = self._dents.shares(state, pressing.numbers, pressing.normal)
+        made = self._cascade(rest.assembled(), pressing, shares, lambda _: shares)
         self._changed = True
         fragment.set((*(part for part in parts if part is not rest), *made.parts))
-        return self._detached([*graph.joined(cracking), *made.broken], self.force)
+        return self._detached([*graph.joined(cracking), *made.broken], float((shares * pressing.normal).max()))
 
     def _pressing(self, state: Running, body: int, fragment: Fragment) -> Pressing:
         """Return what presses on a fragment."""

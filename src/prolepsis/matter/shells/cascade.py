@@ -14,6 +14,8 @@ TOGETHER = 0.9
 """Bonds within this fraction of the most overloaded one give way with it, which keeps a cascade short."""
 RELIEF_STEP = 0.9
 """By this factor at a time the force on what is crushed is lowered [1]."""
+HALVINGS = 30
+"""In which the forces are found under which a bond gives way: to rounding."""
 ALMOST = 1.001
 """What is pressed in by just the force that it bears stays [1]."""
 
@@ -103,6 +105,28 @@ def cascade(
                 relief = max(RELIEF_STEP * relief, cracking.most_relief)
                 shares = ease(relief)
     return Cascade(parts=parts, load=load, worst=worst, changed=changed, broken=tuple(broken), shares=shares)
+
+
+def onset(graph: BondGraph, pressing: Pressing, before: FloatArray, now: FloatArray) -> FloatArray:
+    """Return the shares of the contact forces under which the first bond gives way [1], shape (c,).
+
+    In a substep the forces go from what they were to what they are, and a crack runs as soon as a bond is overloaded.
+    How much is overloaded at the end hangs on the substep.
+
+    Args:
+        graph: An assembled graph.
+        pressing: The contact forces at the end.
+        before: Share of them at the beginning [1], shape (c,).
+        now: Share of them at the end [1], shape (c,).
+    """
+    if float(pressing.loads(graph, now).max()) <= 1:
+        return now
+    low, high = 0.0, 1.0
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        bears = float(pressing.loads(graph, before + middle * (now - before)).max()) < 1
+        low, high = (middle, high) if bears else (low, middle)
+    return before + high * (now - before)
 
 
 def _pressed_out(graph: BondGraph, pressing: Pressing, shares: FloatArray, bears: float) -> IntArray:

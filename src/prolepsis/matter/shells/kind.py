@@ -59,6 +59,11 @@ class Shells(Kind):
             role="Breakable",
             default=True,
         ),
+        Channel(
+            name="pressed_in",
+            doc="depth of its deepest dent so far, over that at which what lines its shell tears and it opens [1]",
+            role="Breakable",
+        ),
         Channel(name="broken", doc="1 once one of its bonds has detached, else 0", begins="BrokenThing"),
     )
     happenings = (DETACHMENT,)
