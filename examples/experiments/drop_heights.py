@@ -10,11 +10,12 @@ import math
 import tempfile
 from pathlib import Path
 
+from prolepsis.engine.composing import compose_scene
 from prolepsis.engine.simulation import simulate
 from prolepsis.engine.world import compile_world
 from prolepsis.knowledge import KnowledgeBase
 from prolepsis.programs import read_program
-from prolepsis.scene.compose import compose
+from prolepsis.scenario.file import DEFAULT_PARTICLES
 from prolepsis.terms.terms import Term
 
 SITUATION = """@prefix : <https://w3id.org/prolepsis#> .
@@ -33,7 +34,7 @@ def breaks(posture: str, height: float, force: float, substep: float) -> bool:
         file = Path(folder) / "drop.ttl"
         file.write_text(SITUATION.format(z=HALF[posture] + height, pitch=pitch), encoding="utf-8")
         knowledge = KnowledgeBase.load(file).with_values({"eggshell1.breakingForce": force})
-    scene = compose(knowledge)
+    scene = compose_scene(knowledge, particles=DEFAULT_PARTICLES)
     program = read_program(Term("wait", (0.001,)), scene)
     fall = math.sqrt(2 * height / 9.81)
     log = simulate(compile_world(scene), program, duration=fall + 0.005, max_step=substep)

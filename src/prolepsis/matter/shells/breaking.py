@@ -275,14 +275,9 @@ class Breaking(Controller):
             self.load = max(self.load, fragment.load)
             return []
         pressing = self._pressing(state, body, fragment)
-
-        def shares(relief: float | None = None) -> FloatArray:
-            if not self.intact:
-                return np.ones(len(pressing.normal))
-            return self._dents.shares(state, pressing.numbers, pressing.normal, relief)
-
+        shares = self._easing(state, pressing)
         # A crack runs faster than what presses moves: the force falls before that has come any farther.
-        first = shares()
+        first = shares(None)
         if self.intact:
             before = shares_before(state, self._number, self._before, pressing.numbers)
             first = onset(fragment.graph, pressing, np.minimum(before, first), first)
@@ -294,11 +289,16 @@ class Breaking(Controller):
         self._changed = True
         fragment.set(made.parts)
         if self.intact:
-            eased = made.shares < 1
-            borne = (made.shares * pressing.normal)[eased]
-            self._dents.begin(state, pressing.numbers[eased], borne, self._contact.stiffness)
+            eased, borne = made.shares < 1, made.shares * pressing.normal
+            self._dents.begin(state, pressing.numbers[eased], borne[eased], self._contact.stiffness)
             self._contact.update(state, self._pressed_most, self._damping())
         return self._detached(made.broken, float((first * pressing.normal).max()))
+
+    def _easing(self, state: Running, pressing: Pressing) -> Callable[[float | None], FloatArray]:
+        """Return what tells the shares of forces that a shell bears, cracked with a relief or before that (None)."""
+        if not self.intact:
+            return lambda _: np.ones(len(pressing.normal))
+        return lambda relief: self._dents.shares(state, pressing.numbers, pressing.normal, relief)
 
     def _foresees(self, state: Running, totals: dict[int, float]) -> bool:
         """Return whether what comes closer may press hard enough in the coming substep for something to give way."""
@@ -332,11 +332,11 @@ class Breaking(Controller):
         parts = cracked.without(cracked.round_pieces(pieces)).fragments()
         rest = max(parts, key=lambda part: len(part.nodes))
         pressing = self._pressing(state, body.id, fragment)
-        shares = self._dents.shares(state, pressing.numbers, pressing.normal)
-        made = self._cascade(rest.assembled(), pressing, shares, lambda _: shares)
+        shares = self._easing(state, pressing)
+        made = self._cascade(rest.assembled(), pressing, shares(1.0), shares)
         self._changed = True
         fragment.set((*(part for part in parts if part is not rest), *made.parts))
-        return self._detached([*graph.joined(cracking), *made.broken], float((shares * pressing.normal).max()))
+        return self._detached([*graph.joined(cracking), *made.broken], float((shares(1.0) * pressing.normal).max()))
 
     def _pressing(self, state: Running, body: int, fragment: Fragment) -> Pressing:
         """Return what presses on a fragment."""
