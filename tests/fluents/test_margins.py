@@ -26,8 +26,9 @@ def test_a_fall_has_its_height_over_the_least_as_margin(drop: float, falls: bool
     # The block is 10 cm high.
     timeline = recognize(run(BLOCK.format(0.05 + drop), duration=0.3))
     found = timeline.select(type="falling")
-    assert len(found) == falls
-    for fact in found:
+    assert bool(found) == falls
+    # What rebounds falls again, from lower.
+    for fact in found[:1]:
         assert fact.evidence["margin"] == pytest.approx(drop / 0.005, rel=0.1)
         assert is_near(fact.evidence) == (drop < 0.006)
 

@@ -118,9 +118,11 @@ def test_what_solids_are_said_to_do_is_what_they_do(number: int) -> None:
         touches_any[log.contacts.tick[rows]] = True
         # What falls into the cup is contained once something in it bears it, at the latest when it has lain there.
         assert not (contained & ~near(inside, 150)[0]).any(), name
-        assert not (near(inside & near(touches_any, 100)[0], 250)[1] & ~contained).any(), name
         height = log.poses[:, thing, 2]
         speed = np.gradient(height, log.dt)
+        # What still bounces in it has not been borne yet.
+        lies = inside & near(touches_any, 100)[0] & near(np.abs(speed) < 0.05, 50)[1]
+        assert not (near(lies, 250)[1] & ~contained).any(), name
         free = ~touches_any & (speed < -0.05)
         falling = held(timeline, log, "falling", name)
         assert not (falling & ~near(free, 35)[0]).any(), name
@@ -136,7 +138,7 @@ def test_what_has_no_hollow_contains_nothing_though_shards_lie_on_it(height: flo
     log = run(f":floor a :Floor . :table1 a :Table . :egg1 a :Egg ; :z {0.722 + height} ; :pitch 20.0 .", duration=1.0)
     timeline = recognize(log)
     pieces = {fact.args[1] for fact in timeline.select(type="supports") if "piece" in str(fact.args[1])}
-    assert len(pieces) > 2, "shards lie about"
+    assert len(pieces) > 1, "shards lie about"
     assert not [fact for fact in timeline.select(type="contains") if fact.args[0] in ("table1", "floor")]
     shares = [value for fact in timeline.facts for name, value in fact.evidence.items() if name in ("share", "fill")]
     assert shares and all(isinstance(share, float) and 0.0 <= share <= 1.0 for share in shares)

@@ -41,7 +41,7 @@ def simulated(turtle: str, plan: str, *kinds: Kind) -> Log:
 
 @pytest.mark.parametrize("name", ["fish_finger", "left_finger", "palm", "panel0", "piece1"])
 def test_a_name_decides_nothing(name: str) -> None:
-    log = run(FLOOR + f":{name} a :Block ; :z 0.5 .", duration=0.4)
+    log = run(FLOOR + f":{name} a :Block ; :z 0.5 .", duration=2.0)
     heights = log.poses[:, log.index(name), 2]
     assert log.things[log.index(name)].mount == FREE
     assert heights[0] == pytest.approx(0.5)

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from prolepsis import Projection, project
+from prolepsis.terms.errors import Note
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -20,12 +21,14 @@ def test_a_gentle_blow_leaves_the_egg_whole_and_held() -> None:
     assert run.ask(
         "occurs(hitting(rightGripper, egg1, bowl1, _), T), occurs(colliding(bowl1, egg1), C), allen(during, C, T)"
     )
-    assert not run.ask("holds(broken(egg1), T)")
+    # At 0.15 m/s the greatest load is 0.8 to 0.9 of the strength, and that is said.
+    with pytest.warns(Note, match="no, but nearly so: broken"):
+        assert not run.ask("holds(broken(egg1), T)")
     assert run.ask("holds(attached(rightGripper, egg1), T), occurs(colliding(bowl1, egg1), C), during(C, T)")
 
 
 def test_a_harder_blow_cracks_it_and_its_membrane_holds_it_together() -> None:
-    run = hit(0.4)
+    run = hit(0.3)
     assert run.ask("occurs(hitting(rightGripper, egg1, bowl1, _), H), occurs(breaking(egg1), B), allen(during, B, H)")
     assert not run.ask("holds(spilled(_), T)")
     assert run.ask("holds(attached(rightGripper, egg1), T), occurs(breaking(egg1), B), allen(contains, T, B)")

@@ -76,7 +76,8 @@ class Wetting(Controller):
         world = self._centres(state, index, spacing, cells)
         left = np.ones(len(cells), dtype=np.bool_)
         for absorbent in self._absorbent:
-            left &= distance_to(state, absorbent, world) > TOUCH_REACH * spacing
+            # Where in its cell the liquid was is not known.
+            left &= distance_to(state, absorbent, world) > (TOUCH_REACH + 0.5) * spacing
         self._wet[index] = np.union1d(cells[left], self._cells(state, index, spacing, positions))
         self._most[index] = max(self._most[index], len(self._wet[index]))
         if not len(positions) and len(self._wet[index]) <= NOTICEABLE * self._most[index]:
