@@ -102,8 +102,11 @@ class Sucking:
         self.pad_force = sum(force for force, _ in felt)
         self._held = max(felt)[1] if felt else self._held if self.command > 0.0 else -1
 
-    def held(self, own: Collection[int], middle: FloatArray) -> tuple[str, ...]:
+    def between(self, own: Collection[int], middle: FloatArray) -> tuple[str, ...]:
         return (whole_of(self._state, self._held),) if self._held >= 0 else ()
+
+    def held(self, own: Collection[int], middle: FloatArray) -> tuple[str, ...]:
+        return self.between(own, middle)
 
 
 def test_a_cup_without_joints_sucks_a_block_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
