@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from prolepsis.engine.impacts import usual_solids
 from prolepsis.engine.state import State
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
-from prolepsis.log.things import falling_apart
 from prolepsis.scene.running import MAX_STEP, TICK
 from prolepsis.system.mujoco import mujoco
 
@@ -53,10 +53,8 @@ class Approaching:
 
     def bind(self, state: State) -> None:
         """Look up what a model that is new consists of."""
-        model, things = state.model, state.scene.things
-        brittle = falling_apart(things)
-        usual = np.array([not thing.emerges and thing.name not in brittle for thing in things] + [True])
-        self.usual = usual[state.body_thing[model.geom_bodyid]]
+        model = state.model
+        self.usual = usual_solids(state)
         self.middle, self.half = model.geom_aabb[:, :3].copy(), model.geom_aabb[:, 3:].copy()
         plane = model.geom_type == int(mujoco.mjtGeom.mjGEOM_PLANE)
         # All that is below it counts as within.

@@ -41,19 +41,11 @@ class Impacts:
 
     def bind(self, state: State) -> None:
         """Look up what a model that is new consists of."""
-        things = state.scene.things
-        brittle = falling_apart(things)
-        rows = [
-            (
-                not thing.emerges and thing.name not in brittle,
-                thing.quantities.get("restitution", 0.0),
-                thing.quantities.get("youngsModulus", np.nan),
-            )
-            for thing in things
-        ]
+        known = [each.quantities for each in state.scene.things]
+        rows = [(each.get("restitution", 0.0), each.get("youngsModulus", np.nan)) for each in known]
         # A body that is no thing has index -1.
-        table = np.array([*rows, (True, 0.0, np.nan)])[state.body_thing[state.model.geom_bodyid]]
-        self.usual, self.restitution, self.modulus = table[:, 0] > 0, table[:, 1], table[:, 2]
+        table = np.array([*rows, (0.0, np.nan)])[state.body_thing[state.model.geom_bodyid]]
+        self.usual, self.restitution, self.modulus = usual_solids(state), table[:, 0], table[:, 1]
 
     def step(self, model: Any, data: Any) -> None:
         """Make one substep in which things may hit each other or slide."""
@@ -94,6 +86,15 @@ class Impacts:
         # Of what is not known, both store the same.
         share[np.isnan(share)] = 0.5
         return np.sqrt(share * returned[:, 0] + (1.0 - share) * returned[:, 1])
+
+
+def usual_solids(state: State) -> BoolArray:
+    """Return which solids of a model neither break nor come of what broke, those of no thing included, shape (G,)."""
+    things = state.scene.things
+    brittle = falling_apart(things)
+    # A body that is no thing has index -1.
+    usual = np.array([*(not each.emerges and each.name not in brittle for each in things), True])
+    return usual[state.body_thing[state.model.geom_bodyid]]
 
 
 def _settle(model: Any, data: Any, row: IntArray) -> None:

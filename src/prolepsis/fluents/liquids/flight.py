@@ -42,7 +42,7 @@ def _facts(observation: Observation, stuff: int, fraction: FloatArray, mass: flo
     enough = fraction >= NOTICEABLE_FRACTION - 1e-9
     stretches = debounce(enough, observation.dt, gap=STUFF_GAP, least=STUFF_LEAST)
     what = "event", "inFlight", (observation.log.things[stuff].name,)
-    yield from facts_of_share(observation, what, fraction, mass, stretches)
+    yield from facts_of_share(observation, what, fraction, stretches, mass=fraction * mass)
 
 
 def blobs_in_air(observation: Observation) -> dict[int, BoolArray]:

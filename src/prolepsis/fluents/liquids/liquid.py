@@ -9,10 +9,10 @@ import numpy as np
 from prolepsis.fluents.intervals import arriving, debounce, opened
 from prolepsis.fluents.liquids.liquid_motion import FLOWING_SPEED, particle_speeds
 from prolepsis.fluents.liquids.particle_locations import ParticleLocations, particle_locations
-from prolepsis.fluents.margins import NearMiss, margin_of, nearly
+from prolepsis.fluents.margins import NearMiss, margin_of
 from prolepsis.fluents.observation import Observation, named
 from prolepsis.fluents.registry import event, fluent
-from prolepsis.fluents.solids.containment import CONTAINED_GAP, CONTAINED_LEAST, NOTICEABLE_FRACTION, fractions
+from prolepsis.fluents.solids.containment import CONTAINED_GAP, CONTAINED_LEAST, NOTICEABLE_FRACTION, facts_of_share
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.log import PARKED
 from prolepsis.log.near import MARGIN
@@ -194,10 +194,5 @@ def _facts(
     names = (observation.unit_names[stuff],)
     args = names if first is None else (observation.unit_names[first], *names)
     shown = {name: seen.at_ticks(values, observation.tick_count) for name, values in series.items()}
-    ratio = shown["fraction"] / NOTICEABLE_FRACTION
-    for start, end in stretches.tolist():
-        evidence = {name: float(values[start:end].max()) for name, values in shown.items()}
-        evidence |= fractions(shown["fraction"][start:end])
-        evidence[MARGIN] = margin_of(ratio, start, end)
-        yield observation.fact("fluent", type, args, (start, end), evidence)
-    yield from nearly(observation, ("fluent", type, args), ratio, stretches)
+    fraction = shown.pop("fraction")
+    yield from facts_of_share(observation, ("fluent", type, args), fraction, stretches, **shown)

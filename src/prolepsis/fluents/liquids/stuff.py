@@ -48,7 +48,7 @@ def spilled(observation: Observation) -> Iterator[Fact | NearMiss]:
         fraction = share_of(observation, shares, lying)
         mass = mass_of(observation, stuff, shares)
         what = "fluent", "spilled", (observation.log.things[stuff].name,)
-        yield from facts_of_share(observation, what, fraction, mass, _noticed(observation, fraction))
+        yield from facts_of_share(observation, what, fraction, _noticed(observation, fraction), mass=fraction * mass)
 
 
 @event("spilling", "o")
@@ -83,7 +83,9 @@ def supports_stuff(observation: Observation) -> Iterator[Fact | NearMiss]:
             fraction = share_of(observation, shares, _piled(observation, rows, {below}))
             args = observation.unit_names[below], observation.log.things[stuff].name
             what = "fluent", "supports", args
-            yield from facts_of_share(observation, what, fraction, mass, _noticed(observation, fraction))
+            yield from facts_of_share(
+                observation, what, fraction, _noticed(observation, fraction), mass=fraction * mass
+            )
 
 
 @event("moving", "o")

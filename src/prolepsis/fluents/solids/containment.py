@@ -79,15 +79,15 @@ def _stuffs(observation: Observation) -> Iterator[Fact | NearMiss]:
             enough = share >= NOTICEABLE_FRACTION - 1e-9
             args = observation.unit_names[container], things[stuff].name
             stretches = debounce(enough, observation.dt, gap=CONTAINED_GAP, least=CONTAINED_LEAST)
-            yield from facts_of_share(observation, ("fluent", "contains", args), share, mass, stretches)
+            yield from facts_of_share(observation, ("fluent", "contains", args), share, stretches, mass=share * mass)
 
 
 def facts_of_share(
     observation: Observation,
     what: tuple[Kind, str, tuple[str, ...]],
     share: FloatArray,
-    mass: float,
     stretches: IntArray,
+    **more: FloatArray,
 ) -> Iterator[Fact | NearMiss]:
     """Yield the facts about a noticeable share of a stuff, and when it nearly was one.
 
@@ -95,13 +95,13 @@ def facts_of_share(
         observation: The log.
         what: Kind, type and arguments.
         share: The share [1], shape (T,).
-        mass: What all of the stuff weighs [kg].
         stretches: When it is noticed.
+        more: What is told besides, as the greatest of each by its name, shape (T,).
     """
     ratio = share / NOTICEABLE_FRACTION
     for start, end in stretches.tolist():
-        evidence = fractions(share[start:end])
-        evidence |= {"mass": evidence["fraction"] * mass, MARGIN: margin_of(ratio, start, end)}
+        greatest = {name: float(values[start:end].max()) for name, values in more.items()}
+        evidence = {**greatest, **fractions(share[start:end]), MARGIN: margin_of(ratio, start, end)}
         yield observation.fact(*what, (start, end), evidence)
     yield from nearly(observation, what, ratio, stretches)
 
