@@ -1,7 +1,7 @@
 # What a user and a developer run. Every target sets up what it needs first; `make` alone lists them.
 PY := .venv/bin/python
 
-.PHONY: help demo test laws bench experiments setup setup-dev lock clean
+.PHONY: help demo test laws right bench experiments setup setup-dev lock clean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## */\1\t/p' $(MAKEFILE_LIST) | while IFS="$$(printf '\t')" read -r name doc; do printf '  make %-11s %s\n' "$$name" "$$doc"; done
@@ -18,6 +18,9 @@ test: setup-dev  ## ruff, pyright, import-linter, pytest
 
 laws: setup-dev  ## the longer suites
 	.venv/bin/pytest -q -n 2 --dist worksteal -m laws
+
+right: setup-dev  ## compare with closed forms and published numbers, and write docs/how_right.md
+	@OPENBLAS_NUM_THREADS=1 $(PY) tools/how_right.py
 
 bench: setup-dev  ## the benchmarks, as one table; ARGS='--help' tells more
 	@$(PY) benchmarks/run.py $(ARGS)

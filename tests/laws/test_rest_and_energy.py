@@ -7,6 +7,7 @@ run is invalid, which is no answer and no pass. ``docs/rest_and_energy.md`` tell
 from __future__ import annotations
 
 import pytest
+from tests.comparing import Compare
 from tests.laws import energy_scenes, rest_scenes
 from tests.laws.verdicts import gained, moved
 
@@ -41,13 +42,17 @@ def rows(names: list[str], failing: dict[str, str]) -> list[object]:
 
 
 @pytest.mark.parametrize("name", rows(list(rest_scenes.SCENES), MOVES))
-def test_what_stands_stays(name: str) -> None:
-    assert moved(rest_scenes.SCENES[name]) == []
+def test_what_stands_stays(compare: Compare, name: str) -> None:
+    wrong = moved(rest_scenes.SCENES[name])
+    compare("what stands stays (scenes)", not wrong, True, by="statics")
+    assert wrong == []
 
 
 @pytest.mark.parametrize("name", rows(list(energy_scenes.SCENES), GAINS))
-def test_nothing_gains_energy(name: str) -> None:
-    assert gained(*energy_scenes.SCENES[name]) == []
+def test_nothing_gains_energy(compare: Compare, name: str) -> None:
+    wrong = gained(*energy_scenes.SCENES[name])
+    compare("nothing gains energy (scenes)", not wrong, True, by="conservation of energy")
+    assert wrong == []
 
 
 def test_the_tables_are_long_enough() -> None:

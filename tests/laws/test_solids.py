@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from tests.comparing import Compare
 from tests.laws.solid_scenes import (
     G,
     overhanging,
@@ -30,10 +31,11 @@ FIXED_STEEL = ":restitution 0.6 ; :youngsModulus 200.0e9"
 
 
 @pytest.mark.parametrize(("length", "height"), [(0.03, 0.1), (0.05, 0.1), (0.08, 0.1), (0.01, 0.03), (0.1, 0.4)])
-def test_a_block_topples_once_its_weight_is_beyond_its_edge(length: float, height: float) -> None:
+def test_a_block_topples_once_its_weight_is_beyond_its_edge(compare: Compare, length: float, height: float) -> None:
     angle = math.degrees(math.atan(length / height))
-    assert not topples(length, height, angle - 0.3)
-    assert topples(length, height, angle + 0.3)
+    what, by = "a block on a slope topples (0.3 degrees below and above)", "`tan a = length / height`"
+    compare(what, topples(length, height, angle - 0.3), False, by=by)
+    compare(what, topples(length, height, angle + 0.3), True, by=by)
 
 
 @pytest.mark.parametrize(
@@ -47,15 +49,19 @@ def test_a_block_topples_once_its_weight_is_beyond_its_edge(length: float, heigh
         (4, (0.05, 0.03, 0.015)),
     ],
 )
-def test_bricks_hang_over_by_half_of_the_harmonic_series(count: int, size: tuple[float, float, float]) -> None:
-    assert not overhanging(count, size, 0.99)
-    assert overhanging(count, size, 1.01)
+def test_bricks_hang_over_by_half_of_the_harmonic_series(
+    compare: Compare, count: int, size: tuple[float, float, float]
+) -> None:
+    what, by = "bricks fall that hang over an edge (99 and 101 % of the most)", "half of the harmonic series"
+    compare(what, overhanging(count, size, 0.99), False, by=by)
+    compare(what, overhanging(count, size, 1.01), True, by=by)
 
 
 @pytest.mark.parametrize("number", range(48))
-def test_a_tower_falls_if_what_is_above_a_face_is_not_over_it(number: int) -> None:
+def test_a_tower_falls_if_what_is_above_a_face_is_not_over_it(compare: Compare, number: int) -> None:
     tower = random_tower(np.random.default_rng(number))
-    assert tower_falls(tower) == (tower.margin < 0.0), f"{1000.0 * tower.margin:.2f} mm"
+    what, by = "a random tower falls (margins of 1 to 12 mm)", "what is above a face is over it, or not"
+    compare(what, tower_falls(tower), tower.margin < 0.0, by=by)
 
 
 @pytest.mark.parametrize("height", [0.1, 0.5, 2.0])
@@ -73,31 +79,40 @@ def test_a_tower_falls_if_what_is_above_a_face_is_not_over_it(number: int) -> No
     ids=["wood-wood", "wood-steel", "steel-wood", "steel-steel", "glass-stone", "rubber-stone", "rubber-wood"],
 )
 def test_a_ball_rebounds_as_its_material_and_that_below_allow(
-    height: float, material: str, below: str, expected: float
+    compare: Compare, height: float, material: str, below: str, expected: float
 ) -> None:
-    assert rebound(height, material, below) == pytest.approx(expected, abs=0.02)
+    by = "restitution of the pair"
+    compare("speed after over before a ball's impact", rebound(height, material, below), expected, by=by, within=0.02)
 
 
 @pytest.mark.parametrize(("friction", "speed"), [(0.3, 0.1), (0.3, 0.5), (0.3, 2.0), (0.1, 2.0), (0.3, 4.0)])
-def test_what_slides_stops_after_its_energy_over_its_friction_and_does_not_hop(friction: float, speed: float) -> None:
+def test_what_slides_stops_after_its_energy_over_its_friction_and_does_not_hop(
+    compare: Compare, friction: float, speed: float
+) -> None:
     found = slide(friction, speed)
+    way = speed**2 / (2.0 * friction * G)
     # In the first millisecond the sole finds its contacts.
-    assert found.distance == pytest.approx(speed**2 / (2.0 * friction * G), rel=0.005, abs=1e-3 * speed)
-    assert found.rise < 2e-5
+    within = max(0.005 * way, 1e-3 * speed)
+    compare("how far a block slides", found.distance, way, by="`v^2 / (2 mu g)`", within=within, unit="m")
+    compare("how high a sliding block hops", 1e3 * found.rise, 0.0, by="not at all", within=0.02, unit="mm")
     if speed > 0.3:
-        assert found.force == pytest.approx((1.0, 1.0), abs=0.05)
+        for force in found.force:
+            compare("force of the floor over a sliding block's weight", force, 1.0, by="balance", within=0.05)
 
 
 @pytest.mark.parametrize("friction", [0.2, 0.4, 0.6])
-def test_a_block_slips_once_the_slope_is_steeper_than_its_friction(friction: float) -> None:
+def test_a_block_slips_once_the_slope_is_steeper_than_its_friction(compare: Compare, friction: float) -> None:
     angle = math.degrees(math.atan(friction))
-    assert slipped(friction, angle - 0.3)[-1] < 1e-5
+    still = 1e3 * slipped(friction, angle - 0.3)[-1]
+    compare("a block 0.3 degrees below the angle of friction slips", still, 0.0, by="none", within=0.01, unit="mm")
     tilt = math.radians(angle + 0.3)
     acceleration = G * (math.sin(tilt) - friction * math.cos(tilt))
-    assert slipped(friction, angle + 0.3)[-1] == pytest.approx(acceleration * 2.0, rel=0.02)
+    way = slipped(friction, angle + 0.3)[-1]
+    compare("... above it, in 2 s", way, acceleration * 2.0, by="`a t^2 / 2`", share=0.02, unit="m")
 
 
 @pytest.mark.parametrize(("pitch", "roll"), [(0.0, 0.0), (10.0, 0.0), (45.0, 0.0), (45.0, 35.0)])
 @pytest.mark.parametrize("speed", [0.1, 1.0, 3.0, 5.0, 10.0, 20.0])
-def test_nothing_goes_through_a_plate(speed: float, pitch: float, roll: float) -> None:
-    assert not passes(speed, pitch, roll)
+def test_nothing_goes_through_a_plate(compare: Compare, speed: float, pitch: float, roll: float) -> None:
+    what = "a cube of 1 cm at 0.1 to 20 m/s goes through a plate of 5 mm"
+    compare(what, passes(speed, pitch, roll), False, by="solids do not")

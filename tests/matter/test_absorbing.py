@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from tests.comparing import Compare
 from tests.scenes import run, scene, started
 
 from prolepsis.engine.state import State
@@ -53,12 +54,15 @@ def squeezed() -> Log:
     return run(TABLE + SOAKED + HAND, plan, particles=800)
 
 
-def test_a_dry_sponge_that_is_dipped_in_water_fills_to_its_capacity_and_no_further(bathed: Log) -> None:
+def test_a_dry_sponge_that_is_dipped_in_water_fills_to_its_capacity_and_no_further(
+    compare: Compare, bathed: Log
+) -> None:
     taken = held(bathed)
     assert taken[0] == 0.0
     assert taken.max() <= FULL
     # The hand's pressure hardly varies, and at the end few particles are missing.
-    assert taken[-1] == pytest.approx(GRIPPED * FULL, rel=0.02)
+    by = "15 times its mass, less what the grip presses out"
+    compare("a gripped sponge that is dipped fills", taken[-1], GRIPPED * FULL, by=by, share=0.02, unit="kg")
 
 
 def test_it_fills_first_quickly_and_then_ever_more_slowly(bathed: Log) -> None:
@@ -120,12 +124,12 @@ def test_what_comes_out_is_beside_it_and_takes_the_place_of_nothing() -> None:
     assert not particles.velocity[particles.free].any()
 
 
-def test_a_soaked_sponge_that_is_lifted_drips_down_to_what_it_retains() -> None:
+def test_a_soaked_sponge_that_is_lifted_drips_down_to_what_it_retains(compare: Compare) -> None:
     quick = {"sponge1.drippingTime": 1.0}
     plan = f"sequence([grasp(hand1, sponge1, {GRIP}, 0.012), lift(hand1, 0.05), hold(hand1, 5.0)])"
     log = run(TABLE + SOAKED + HAND, plan, particles=800, values=quick)
     kept = held(log)
-    assert kept[-1] == pytest.approx(0.7 * FULL, rel=0.02)
+    compare("a lifted sponge drips", kept[-1], 0.7 * FULL, by="70 % of what it can hold", share=0.02, unit="kg")
     assert kept.min() > 0.7 * FULL - 1.01 * log.particles.mass[0]
 
 
@@ -135,12 +139,13 @@ def test_a_soaked_sponge_that_lies_on_a_table_does_not_drip() -> None:
     assert held(log)[-1] > 0.97 * FULL
 
 
-def test_the_table_bears_the_weight_of_the_sponge_with_what_it_holds() -> None:
+def test_the_table_bears_the_weight_of_the_sponge_with_what_it_holds(compare: Compare) -> None:
     log = run(TABLE + SOAKED, "wait(1.0)", particles=500)
     sponge, table = log.index("sponge1"), log.index("table1")
     rows = (log.contacts.tick > 500) & (log.contacts.a == min(sponge, table)) & (log.contacts.b == max(sponge, table))
     force = abs(log.contacts.force[rows, 2].sum()) / (log.tick_count - 501)
-    assert force == pytest.approx((DRY + held(log)[-1]) * 9.81, rel=0.01)
+    weight = (DRY + held(log)[-1]) * 9.81
+    compare("a sponge with water weighs on a table", force, weight, by="its weight", share=0.01, unit="N")
 
 
 def test_honey_hardly_enters_a_sponge_in_the_time_in_which_water_does() -> None:

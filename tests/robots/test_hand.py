@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from tests.comparing import Compare
 from tests.scenes import run, scene
 
 from prolepsis.engine.simulation import simulate
@@ -21,16 +22,16 @@ BLOCK_IN_HAND = (
 
 
 @pytest.mark.parametrize("force", [2.0, 5.0, 10.0, 20.0, 40.0])
-def test_the_commanded_pad_force_arrives(force: float) -> None:
+def test_the_commanded_pad_force_arrives(compare: Compare, force: float) -> None:
     log = run(BLOCK_IN_HAND, f"sequence([close(hand1, {force}), hold(hand1, 0.3)])")
     pads = log.channels["hand1.pad_force"]
     closed = log.actions[0].end
-    assert pads[closed:].mean() == pytest.approx(force, rel=0.01)
+    compare("force of the pads on a block", pads[closed:].mean(), force, by="as told", share=0.01, unit="N")
     assert pads.max() < 1.05 * force
 
 
 @pytest.mark.parametrize("force", [2.0, 40.0])
-def test_the_commanded_pad_force_arrives_on_an_egg_too(force: float) -> None:
+def test_the_commanded_pad_force_arrives_on_an_egg_too(compare: Compare, force: float) -> None:
     from tests.scenes import EGG_IN_HAND
 
     log = run(
@@ -39,17 +40,19 @@ def test_the_commanded_pad_force_arrives_on_an_egg_too(force: float) -> None:
         values={"eggshell1.breakingForce": 100.0},
     )
     pads = log.channels["hand1.pad_force"]
-    assert pads[log.actions[0].end :].mean() == pytest.approx(force, rel=0.01)
+    found = pads[log.actions[0].end :].mean()
+    compare("force of the pads on an egg", found, force, by="as told", share=0.01, unit="N")
     assert pads.max() < 1.05 * force
 
 
 @pytest.mark.parametrize(("share", "held"), [(0.8, False), (1.25, True)])
-def test_a_block_is_held_iff_friction_bears_its_weight(share: float, held: bool) -> None:
+def test_a_block_is_held_iff_friction_bears_its_weight(compare: Compare, share: float, held: bool) -> None:
     # 2 mu N >= m (g + a), with the greatest acceleration of the lift.
     force = share * 0.05 * (9.81 + 1.0) / (2 * 0.7)
     log = run(BLOCK_IN_HAND, f"sequence([close(hand1, {force!r}), lift(hand1, 0.1), hold(hand1, 0.3)])")
     risen = log.poses[-1, log.index("block1"), 2] - log.poses[0, log.index("block1"), 2]
-    assert (risen > 0.095) == held
+    what, by = "a grip holds a block that is lifted (80 and 125 % of the least)", "`2 mu N = m (g + a)`"
+    compare(what, risen > 0.095, held, by=by)
 
 
 @pytest.mark.parametrize(("slope", "slides"), [(14.0, False), (20.0, True)])
@@ -71,10 +74,10 @@ def test_a_block_slides_iff_the_slope_exceeds_the_friction_angle(slope: float, s
         assert moved < 1e-4
 
 
-def test_a_ball_falls_freely() -> None:
+def test_a_ball_falls_freely(compare: Compare) -> None:
     log = run(":floor a :Floor . :ball1 a :Ball ; :z 2.0 .", duration=0.5)
     drop = log.poses[0, log.index("ball1"), 2] - log.poses[400, log.index("ball1"), 2]
-    assert drop == pytest.approx(0.5 * 9.81 * 0.4**2, rel=0.01)
+    compare("a ball falls for 0.4 s", drop, 0.5 * 9.81 * 0.4**2, by="`g t^2 / 2`", share=0.01, unit="m")
 
 
 def test_the_more_slippery_surface_decides() -> None:

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from tests.comparing import Compare
 from tests.laws.liquid.fitting import damped_wave, slope_of
 from tests.laws.liquid.tank import DOWN, GRAVITY, Pose, Tank, cup, filled_cup, lattice, still, trough, turned
 
@@ -15,7 +16,7 @@ WALL = 0.003
 """Thickness of walls [m]."""
 
 
-def test_a_cup_with_a_hole_in_its_bottom_empties_in_torricellis_time() -> None:
+def test_a_cup_with_a_hole_in_its_bottom_empties_in_torricellis_time(compare: Compare) -> None:
     """From 50 to 12.5 mm within 15 % of ``A / (Cd a) sqrt(2 / g) (sqrt h0 - sqrt h1)`` for a Cd from 0.55 to 0.85.
 
     3800 particles of 3.3 mm, six across the hole of 20 mm. Particles keep off the rim of a hole, so that it acts as if
@@ -37,7 +38,8 @@ def test_a_cup_with_a_hole_in_its_bottom_empties_in_torricellis_time() -> None:
         area = (radius / hole) ** 2
         return area / discharge * math.sqrt(2 / GRAVITY) * (math.sqrt(depth) - math.sqrt(depth / 4))
 
-    assert 0.85 * closed_form(0.85) < tank.time < 1.15 * closed_form(0.55)
+    expected = (0.85 * closed_form(0.85), 1.15 * closed_form(0.55))
+    compare("a cup empties by a hole", tank.time, expected, by="Torricelli, Cd .55 to .85, 15 %", unit="s")
 
 
 def spill_angle(fill: float, count: int) -> tuple[float, float]:
@@ -67,29 +69,30 @@ def spill_angle(fill: float, count: int) -> tuple[float, float]:
     return expected - ahead + rate * tank.time, expected
 
 
+LIP = "`atan((H - h) / R)`"
 LATE = "a layer of particles stands above the lip before it runs over: see docs/liquids.md"
 
 
 @pytest.mark.parametrize("fill", [0.5, 0.65, 0.85])
-def test_a_tilted_cup_begins_to_spill_where_the_surface_reaches_the_lip(fill: float) -> None:
+def test_a_tilted_cup_begins_to_spill_where_the_surface_reaches_the_lip(compare: Compare, fill: float) -> None:
     """Within 4 degrees of ``atan((H - h) / R)`` at the default 2000 particles.
 
     It is late by nearly that, since a layer of particles has to stand above the lip: 5 mm are 5
     to 8 degrees.
     """
     found, expected = spill_angle(fill, 2000)
-    assert found == pytest.approx(expected, abs=4.0)
+    compare("a tilted cup spills (2000 particles)", found, expected, by=LIP, within=4.0, unit="degrees")
 
 
 @pytest.mark.laws
 @pytest.mark.xfail(strict=True, raises=AssertionError, reason=LATE)
-def test_a_finer_liquid_spills_nearer_to_the_closed_form() -> None:
+def test_a_finer_liquid_spills_nearer_to_the_closed_form(compare: Compare) -> None:
     """8000 particles of 3.3 mm: within 3 degrees."""
     found, expected = spill_angle(0.85, 8000)
-    assert found == pytest.approx(expected, abs=3.0)
+    compare("a tilted cup spills (8000 particles)", found, expected, by=LIP, within=3.0, unit="degrees")
 
 
-def test_the_surface_tilts_in_a_cart_that_speeds_up() -> None:
+def test_the_surface_tilts_in_a_cart_that_speeds_up(compare: Compare) -> None:
     """Within 2 degrees of ``atan(a / g)``, 14.3 degrees at 2.5 m/s^2, and the cart is held back by the water's inertia.
 
     1900 particles of 4 mm in a trough of 100 mm. The acceleration sets in within 0.3 s, so that little sloshes; the
@@ -119,12 +122,14 @@ def test_the_surface_tilts_in_a_cart_that_speeds_up() -> None:
 
     push = tank.run(0.7, look)[0]
     slope = slope_of((edges[1:] + edges[:-1]) / 2, np.mean(tops, axis=0))
-    assert math.degrees(math.atan(-slope)) == pytest.approx(math.degrees(math.atan(acceleration / GRAVITY)), abs=2.0)
-    assert -push[0] == pytest.approx(tank.weight / GRAVITY * acceleration, rel=0.03)
+    tilt, expected = math.degrees(math.atan(-slope)), math.degrees(math.atan(acceleration / GRAVITY))
+    compare("the surface in a cart that speeds up", tilt, expected, by="`atan(a / g)`", within=2.0, unit="degrees")
+    force = tank.weight / GRAVITY * acceleration
+    compare("how water holds back a cart that speeds up", -push[0], force, by="`m a`", share=0.03, unit="N")
 
 
 @pytest.mark.parametrize(("radius", "tension"), [(0.025, 0.0), (0.04, 0.0), (0.04, 0.0728), (0.025, 0.0728)])
-def test_water_sloshes_at_its_natural_frequency(radius: float, tension: float) -> None:
+def test_water_sloshes_at_its_natural_frequency(compare: Compare, radius: float, tension: float) -> None:
     """Within 7 % of ``w^2 = (g k + gamma k^3 / rho) tanh(k H)``, ``k = 1.8412 / R``, for 25 and 40 mm and 60 mm depth.
 
     Seven spacings to the radius. The surface is let go from a slope of 10 degrees, where the wave at the wall is a
@@ -149,4 +154,5 @@ def test_water_sloshes_at_its_natural_frequency(radius: float, tension: float) -
     k = 1.8412 / radius
     expected = math.sqrt((GRAVITY * k + tension * k**3 / 998) * math.tanh(k * depth))
     frequency, _ = damped_wave(times, middles, expected)
-    assert frequency == pytest.approx(expected, rel=0.07)
+    by = "`w^2 = (g k + gamma k^3 / rho) tanh(k H)`, `k = 1.8412 / R`"
+    compare("water sloshes in a cup", frequency, expected, by=by, share=0.07, unit="rad/s")

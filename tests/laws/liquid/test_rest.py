@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from tests.comparing import Compare
 from tests.laws.liquid.tank import DOWN, NONE, Tank, cup, filled_cup, lattice, still, turned
 from tests.scenes import run
 
@@ -22,7 +23,7 @@ CUP_ON_TABLE = (
 )
 
 
-def test_the_table_bears_the_weight_of_a_cup_and_its_water_where_they_stand() -> None:
+def test_the_table_bears_the_weight_of_a_cup_and_its_water_where_they_stand(compare: Compare) -> None:
     """The force within 1 % of the weight, its moment about the world's origin within 3 % of that of the weight.
 
     1600 particles of 5 mm. The forces are averaged over 0.6 s, since particles tremble in a resting cup.
@@ -40,13 +41,13 @@ def test_the_table_bears_the_weight_of_a_cup_and_its_water_where_they_stand() ->
     moment = np.cross(log.contacts.point[rows], force).sum(axis=0)
     weight = 9.81 * (cup1.mass + liq1.mass)
     assert liq1.mass == pytest.approx(998 * 0.0002)
-    assert total[2] == pytest.approx(weight, rel=0.01)
+    compare("a cup of water weighs on a table", total[2], weight, by="its weight", share=0.01, unit="N")
     assert moment[0] == pytest.approx(-0.05 * weight, rel=0.03)
     assert moment[1] == pytest.approx(-0.1 * weight, rel=0.03)
 
 
 @pytest.mark.parametrize("angle", [20.0, 35.0])
-def test_a_tilted_cup_feels_the_torque_of_the_water_off_its_centre(angle: float) -> None:
+def test_a_tilted_cup_feels_the_torque_of_the_water_off_its_centre(compare: Compare, angle: float) -> None:
     """1350 particles of 5 mm: force within 1 % of the weight, torque within 3 % of weight times lever."""
     pose = (np.zeros(3), turned("y", math.radians(angle)))
     tank = Tank([(cup(RADIUS, 0.09), lambda _: pose)], filled_cup(RADIUS, 0.045, SPACING, pose=pose), SPACING)
@@ -55,14 +56,15 @@ def test_a_tilted_cup_feels_the_torque_of_the_water_off_its_centre(angle: float)
     push = tank.run(1.0, lambda _, __: levers.append(tank.position.mean(axis=0)))[0]
     lever = np.mean(levers, axis=0)
     assert lever[0] > 0.005
-    assert push[2] == pytest.approx(-tank.weight, rel=0.01)
+    compare("water weighs on a tilted cup", -push[2], tank.weight, by="its weight", share=0.01, unit="N")
     assert push[:2] == pytest.approx([0.0, 0.0], abs=0.005 * tank.weight)
-    assert push[4] == pytest.approx(tank.weight * lever[0], rel=0.03)
+    torque = tank.weight * lever[0]
+    compare("torque of the water on a tilted cup", push[4], torque, by="weight times lever", share=0.03, unit="N m")
     assert push[3] == pytest.approx(-tank.weight * lever[1], abs=0.03 * tank.weight * lever[0])
 
 
 @pytest.mark.laws
-def test_water_keeps_its_height_for_ten_seconds() -> None:
+def test_water_keeps_its_height_for_ten_seconds(compare: Compare) -> None:
     """1847 particles of 5 mm, 60 mm deep: twice the mean height, and the top of the surface, within 3 %, to the end.
 
     The top is the mean of the uppermost layer, half a spacing higher.
@@ -82,8 +84,8 @@ def test_water_keeps_its_height_for_ten_seconds() -> None:
         means.clear()
         tops.clear()
         tank.run(0.1, look)
-        assert np.mean(means) == pytest.approx(DEPTH, rel=0.03)
-        assert np.mean(tops) == pytest.approx(DEPTH, rel=0.03)
+        for height in (np.mean(means), np.mean(tops)):
+            compare("height of water over 10 s", float(height), DEPTH, by="its volume", share=0.03, unit="m")
 
 
 def test_a_free_blob_keeps_its_momentum() -> None:

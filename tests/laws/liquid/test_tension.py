@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from tests.comparing import Compare
 from tests.laws.liquid.tank import GRAVITY, GROUND, Tank, lattice, still
 
 TENSION, DENSITY = 0.0728, 998.0
@@ -22,7 +23,7 @@ TOO_THICK = "the thickness depends too little on the contact angle: see docs/liq
     "angle",
     [pytest.param(50.0, marks=pytest.mark.xfail(strict=True, raises=AssertionError, reason=TOO_THICK)), 90.0],
 )
-def test_a_puddle_is_as_thick_as_its_surface_tension_makes_it(angle: float) -> None:
+def test_a_puddle_is_as_thick_as_its_surface_tension_makes_it(compare: Compare, angle: float) -> None:
     """5 ml of water come to within 25 % of ``2 sqrt(gamma / (rho g)) sin(theta / 2)``: 2.3, and 3.9 mm at 90 degrees.
 
     5000 particles of 1 mm, two to four layers; a spacing is a quarter to a half of the thickness, which is what the
@@ -39,7 +40,8 @@ def test_a_puddle_is_as_thick_as_its_surface_tension_makes_it(angle: float) -> N
     tank.run(0.8, longest=SHORT)
     area = 2 * math.pi * float((tank.position[:, :2] ** 2).sum(axis=1).mean())
     expected = 2 * math.sqrt(TENSION / (DENSITY * GRAVITY)) * math.sin(math.radians(angle) / 2)
-    assert volume / area == pytest.approx(expected, rel=0.25)
+    by = "`2 sqrt(gamma / (rho g)) sin(theta / 2)`"
+    compare("thickness of a puddle of water", 1e3 * volume / area, 1e3 * expected, by=by, share=0.25, unit="mm")
     # The film's top over the whole area makes up its volume again: nothing is pressed together, nothing hollow.
     cells = np.floor(tank.position[:, :2] / (2 * spacing)).astype(int)
     _, index = np.unique(cells, axis=0, return_inverse=True)

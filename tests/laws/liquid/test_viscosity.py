@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from scipy import special  # pyright: ignore[reportMissingTypeStubs]
+from tests.comparing import Compare
 from tests.laws.liquid.fitting import slope_of
 from tests.laws.liquid.tank import GRAVITY, GROUND, NONE, Tank, cup, filled_cup, lattice, still
 
@@ -61,6 +62,7 @@ def measured_viscosity(viscosity: float, *, spacing: float, speed: float, steps:
     return 1.0 / (rate * (then + share * (tank.time - then)))
 
 
+HUPPERT = "Huppert 1982, `0.894 (g V^3 / (3 nu))^(1/8) t^(1/8)`"
 ORDER = "calm particles under pressure pack and shear like grains, which adds 0.1 Pa s: see docs/liquids.md"
 TOO_VISCOUS = [pytest.mark.laws, pytest.mark.xfail(strict=True, raises=AssertionError, reason=ORDER)]
 
@@ -75,13 +77,15 @@ TOO_VISCOUS = [pytest.mark.laws, pytest.mark.xfail(strict=True, raises=Assertion
         50.0,
     ],
 )
-def test_the_viscosity_asked_for_is_the_one_measured(viscosity: float) -> None:
+def test_the_viscosity_asked_for_is_the_one_measured(compare: Compare, viscosity: float) -> None:
     """Within 20 %: 5400 particles of 3.5 mm, ten to the radius, a swirl of at most 0.29 m/s.
 
     It holds from some 1 Pa s on. With ten spacings to the radius, what a particle next to the wall misses costs 10 to
     15 % of the viscosity (20 % with seven); below, 0.1 Pa s and more come on top.
     """
-    assert measured_viscosity(viscosity, spacing=0.0035, speed=0.5) == pytest.approx(viscosity, rel=0.2)
+    found = measured_viscosity(viscosity, spacing=0.0035, speed=0.5)
+    by = "spin-down of a swirl"
+    compare("viscosity, 0.1 to 50 Pa s", found, viscosity, by=by, share=0.2, unit="Pa s")
 
 
 def test_thin_liquids_flow_like_thin_oil() -> None:
@@ -90,7 +94,7 @@ def test_thin_liquids_flow_like_thin_oil() -> None:
 
 
 @pytest.mark.laws
-def test_honey_spreads_with_the_eighth_root_of_time() -> None:
+def test_honey_spreads_with_the_eighth_root_of_time(compare: Compare) -> None:
     """Exponent 1/8 +- 0.03 and the radius within 10 % of ``0.894 (g V^3 / (3 nu))^(1/8) t^(1/8)``.
 
     100 ml of honey at 30 degrees let go as a column of 30 mm radius; 12000 particles of 2 mm, so that the film is 4.4
@@ -117,9 +121,11 @@ def test_honey_spreads_with_the_eighth_root_of_time() -> None:
     tank.run(0.5)
     tank.run(1.5, look)
     assert volume / (math.pi * radii[-1] ** 2) > 2.9 * spacing
-    assert slope_of(np.log(times), np.log(radii)) == pytest.approx(1 / 8, abs=0.03)
+    exponent = slope_of(np.log(times), np.log(radii))
+    compare("honey spreads on a table, exponent of time", exponent, 1 / 8, by=HUPPERT, within=0.03)
     expected = 0.894 * (GRAVITY * volume**3 * density / (3 * viscosity)) ** (1 / 8) * np.array(times) ** (1 / 8)
-    assert np.array(radii) == pytest.approx(expected, rel=0.1)
+    for radius, wanted in zip(radii, expected, strict=True):
+        compare("honey spreads on a table, radius", radius, float(wanted), by=HUPPERT, share=0.1, unit="m")
 
 
 def test_a_falling_blob_of_honey_hardly_changes_its_momentum() -> None:
