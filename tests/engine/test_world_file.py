@@ -127,6 +127,6 @@ def test_comments_tell_what_each_thing_is() -> None:
     root = ElementTree.fromstring(text, ElementTree.XMLParser(target=builder))
     comments = [str(each.text).strip() for each in root.iter() if each.tag is ElementTree.Comment]
     shell = next(each for each in comments if each.startswith("eggshell1: EggShell in egg1, 30 pieces of "))
-    assert "78 bonds" in shell and "breakingForce 36" in shell
+    assert "78 bonds" in shell and "breakingForce 45" in shell
     assert any(each.startswith("yolk1: EggYolk in egg1, ") and "mass 0.018" in each for each in comments)
     assert any(each.startswith("liq-1- -a: Water in cup1, 1500 particles; ") for each in comments)

@@ -84,7 +84,7 @@ def test_draws_have_the_mean_and_deviation_that_are_stated(tmp_path: Path) -> No
     base, count = load(tmp_path, EGG), 300
     forces = [float(draw(base, seed)["eggshell1", "breakingForce"].value) for seed in range(count)]
     # Five standard errors; the deviation of a sample has one of 1 / sqrt(2 n) of itself.
-    assert np.mean(forces) == pytest.approx(36.0, abs=5 * 7.0 / np.sqrt(count))
+    assert np.mean(forces) == pytest.approx(45.0, abs=5 * 7.0 / np.sqrt(count))
     assert np.std(forces) == pytest.approx(7.0, rel=5 / np.sqrt(2 * count))
 
 
@@ -120,7 +120,7 @@ def test_what_was_drawn_gives_the_same_knowledge_again_in_any_unit(tmp_path: Pat
 
 def test_a_draw_tells_its_distribution(tmp_path: Path) -> None:
     lines = "\n".join(load(tmp_path, EGG).with_draws(1).describe("eggshell1"))
-    assert "N (drawn: 36 +- 7 N, EggShell: slow compression" in lines
+    assert "N (drawn: 45 +- 7 N, EggShell: slow compression" in lines
 
 
 def test_a_draw_from_which_nothing_possible_follows_is_refused_with_its_seed(tmp_path: Path) -> None:

@@ -44,7 +44,7 @@ def test_asserted_values_are_kept_and_the_rest_comes_from_class_defaults(paper: 
     assert paper.value("eggshell3", "mass").origin == "asserted"
     assert paper.quantity("eggshell3", "mass") == 0.01
     strength = paper.value("eggshell3", "breakingForce")
-    assert (strength.value, strength.unit, strength.origin, strength.deviation) == (36.0, "N", "class default", 7.0)
+    assert (strength.value, strength.unit, strength.origin, strength.deviation) == (45.0, "N", "class default", 7.0)
     assert paper.value("egg3", "mass").origin == "derived"
     assert paper.quantity("egg3", "mass") == pytest.approx(0.05)
     assert paper.parts("egg3") == ("eggshell3", "yolk3")

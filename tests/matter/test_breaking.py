@@ -21,11 +21,14 @@ from prolepsis.terms.errors import InputError
 
 SUBSTEPS = (6.25e-5, 1.25e-4, 2.5e-4)
 MASS = 0.059
+FORCE = 45.0
+BEARS, STRETCH = 0.3 * FORCE, 2e-3
+"""Force that a cracked shell bears [N], and how far it can be pressed in [m]."""
 GIRDLE = local_stiffness(np.array([0.0285, 0.022, 0.022]), 0.0, 150e3, 1.3)
 POLE = local_stiffness(np.array([0.0285, 0.022, 0.022]), 1.0, 150e3, 1.3)
 
 
-def drop(height: float, *, standing: bool = False, force: float = 36.0, substep: float = 1e-3) -> Log:
+def drop(height: float, *, standing: bool = False, force: float = FORCE, substep: float = 1e-3) -> Log:
     return run(
         falling_egg(height, standing=standing),
         values={"eggshell1.breakingForce": force},
@@ -65,11 +68,11 @@ def test_impact_force_is_speed_times_root_of_stiffness_and_mass(height: float, s
 
 
 @pytest.mark.laws
-@pytest.mark.parametrize("height", [0.001, 0.012, 0.3])
+@pytest.mark.parametrize("height", [0.001, 0.02, 0.3])
 @pytest.mark.parametrize("standing", [False, True])
 def test_whether_a_dropped_egg_breaks_does_not_depend_on_the_substep(height: float, standing: bool) -> None:
     outcomes = {bonds_broken(drop(height, standing=standing, substep=substep)) > 0 for substep in SUBSTEPS}
-    assert outcomes == {height > 0.01}
+    assert outcomes == {height > 0.015}
 
 
 RIM = ":bowl1 a :Bowl ; :on :floor . "
@@ -107,15 +110,32 @@ def take_finer_steps(monkeypatch: pytest.MonkeyPatch, finer: float) -> None:
     monkeypatch.setattr(Breaking, "longest_step", shorter)
 
 
-def opening_speed(stiffness: float, breaking_force: float) -> float:
+def cracking_force(speed: float, stiffness: float) -> float:
+    """Return the force at which a dropped egg cracks [N], infinity if none: slow cracks need some time.
+
+    Args:
+        speed: That with which it meets the floor [m/s].
+        stiffness: That of its contact [N/m].
+    """
+    times = np.linspace(0, math.pi / 2 * math.sqrt(MASS / stiffness), 2000)
+    load = speed * math.sqrt(stiffness * MASS) / FORCE * np.sin(times * math.sqrt(stiffness / MASS))
+    spent = np.cumsum(load**30) * (times[1] - times[0]) * 31 / 5.0
+    broken = np.flatnonzero((spent >= 1) | (load >= 1.5))
+    return float(FORCE * load[broken[0]]) if len(broken) else math.inf
+
+
+def opening_speed(stiffness: float) -> float:
     """Return the speed from which a dropped egg is pressed in until it opens [m/s].
 
     What is left of its energy when it cracks is spent on a dent, under the force that the cracked shell bears.
     """
-    bears, stretch = 0.3 * 36.0, 2e-3
-    cracks = breaking_force**2 / (2 * stiffness)
-    dent = (bears - MASS * 9.81) * (stretch - (breaking_force - bears) / stiffness)
-    return math.sqrt(2 * (cracks + dent) / MASS)
+    speed = 1.0
+    for _ in range(10):
+        force = cracking_force(speed, stiffness)
+        cracks = force**2 / (2 * stiffness)
+        dent = (BEARS - MASS * 9.81) * (STRETCH - (force - BEARS) / stiffness)
+        speed = math.sqrt(2 * (cracks + dent) / MASS)
+    return speed
 
 
 @pytest.mark.parametrize("finer", [1, 2, 4])
@@ -123,13 +143,13 @@ def test_what_becomes_of_a_dropped_egg_does_not_depend_on_the_substep(
     monkeypatch: pytest.MonkeyPatch, finer: int
 ) -> None:
     take_finer_steps(monkeypatch, finer)
-    outcomes = [came_of(fallen(where, speed)) for where, speed in (("lying", 0.8), ("lying", 1.2), ("rim", 1.0))]
+    outcomes = [came_of(fallen(where, speed)) for where, speed in (("lying", 0.8), ("lying", 1.2), ("rim", 1.2))]
     assert outcomes == [(1, 1), (8, 2), (7, 2)]
 
 
 @pytest.mark.laws
 @pytest.mark.parametrize("where", ["lying", "standing", "rim"])
-@pytest.mark.parametrize("speed", [0.25, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6])
+@pytest.mark.parametrize("speed", [0.25, 0.4, 0.5, 0.6, 0.8, 0.9, 1.1, 1.2, 1.4, 1.6])
 def test_what_becomes_of_a_dropped_egg_does_not_depend_on_the_substep_or_a_micrometre(
     monkeypatch: pytest.MonkeyPatch, where: str, speed: float
 ) -> None:
@@ -140,7 +160,7 @@ def test_what_becomes_of_a_dropped_egg_does_not_depend_on_the_substep_or_a_micro
     outcomes |= {came_of(fallen(where, speed)), came_of(fallen(where, speed, 1e-6))}
     assert len(outcomes) == 1
     ((bonds, parts),) = outcomes
-    assert (bonds > 0, parts > 1) == (speed > 0.3, speed > 0.9)
+    assert (bonds > 0, parts > 1) == (speed > 0.45, speed > 1.0)
 
 
 @pytest.mark.laws
@@ -151,26 +171,28 @@ def test_a_dropped_egg_opens_where_a_dent_as_deep_as_its_membrane_stretches_take
 ) -> None:
     take_finer_steps(monkeypatch, finer)
     where = "standing" if standing else "lying"
-    speed = opening_speed(POLE if standing else GIRDLE, 35.5)  # breaks at 35.3 N lying, 35.8 N standing
-    assert 0.8 < speed < 0.9
-    # 4 % of speed are 9 % of the depth; it comes out to 3 %.
+    speed = opening_speed(POLE if standing else GIRDLE)
+    assert 0.95 < speed < 1.1
+    # 4 % of speed are 8 % of the depth; it comes out to 4 %, at the usual substep to 8 %.
     below = fallen(where, 0.96 * speed)
     assert came_of(below)[1] == 1
-    assert below.channels["egg1.pressed_in"][-1] == pytest.approx(0.92, abs=0.05)
+    assert below.channels["egg1.pressed_in"][-1] == pytest.approx(0.92, abs=0.08)
     assert came_of(fallen(where, 1.04 * speed))[1] == 2
 
 
 @pytest.mark.laws
-@pytest.mark.parametrize("force", [20.0, 50.0])
+@pytest.mark.parametrize("force", [20.0, 60.0])
 def test_whether_a_grasped_egg_breaks_does_not_depend_on_the_substep(force: float) -> None:
     logs = [run(EGG_IN_HAND, f"close(hand1, {force})", duration=1.4, max_step=substep) for substep in SUBSTEPS]
-    assert {bonds_broken(log) > 0 for log in logs} == {force > 36.0}
+    assert {bonds_broken(log) > 0 for log in logs} == {force > FORCE}
 
 
 def test_slow_compression_between_pads_breaks_the_egg_as_between_plates() -> None:
     log = run(EGG_IN_HAND, "close(hand1, 60)", duration=1.6)
     first = int(log.detachments.tick[0])
-    assert log.detachments.force[0] == pytest.approx(36.0, rel=0.15)  # spread over orientations: 6 %
+    assert log.detachments.force[0] == pytest.approx(
+        1.09 * FORCE, rel=0.12
+    )  # in 0.35 s instead of 5; orientations: 6 %
     approach = 0.044 - log.channels["hand1.opening"][first]
     assert 0.2e-3 < approach < 0.35e-3
 
@@ -179,14 +201,14 @@ def test_a_standing_egg_breaks_from_less_height_than_a_lying_one() -> None:
     def breaks(height: float, *, standing: bool) -> bool:
         return bonds_broken(drop(height, standing=standing)) > 0
 
-    between = 0.004  # the drop table of docs/egg.md: standing 3.5 mm, lying 4.6 mm
+    between = 0.0105  # the drop table of docs/egg.md: standing 9.1 mm, lying 11.8 mm
     assert breaks(between, standing=True)
     assert not breaks(between, standing=False)
 
 
 def test_a_stronger_shell_survives_what_breaks_a_weaker_one() -> None:
-    assert bonds_broken(drop(0.005, force=29.0)) > 0
-    assert bonds_broken(drop(0.005, force=43.0)) == 0
+    assert bonds_broken(drop(0.012, force=38.0)) > 0
+    assert bonds_broken(drop(0.012, force=52.0)) == 0
 
 
 def test_pieces_move_on_as_their_whole_did_and_nothing_is_lost() -> None:

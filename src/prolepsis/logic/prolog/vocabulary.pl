@@ -327,6 +327,8 @@ property(adhesionStrength, 'Pa').
 property(bottomHoleRadius, m).
 property(breadth, m).
 property(breakingForce, 'N').
+property(breakingTime, s).
+property(briefForceRatio, '1').
 property(broken, '').
 property(bucklingDisplacement, m).
 property(bucklingForce, 'N').
@@ -335,6 +337,7 @@ property(colour, '').
 property(comprises, '').
 property(contactAngle, rad).
 property(contains, '').
+property(crackGrowthExponent, '1').
 property(crackReliefShare, '1').
 property(crackTipWeakening, '1').
 property(crackedForceShare, '1').

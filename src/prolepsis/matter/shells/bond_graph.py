@@ -65,6 +65,8 @@ class BondGraph:
     """Whether a cracked bond is open, shape (m,)."""
     spread: float
     """Length over which a contact force is shared among pieces [m]."""
+    hardening: float = 1.0
+    """Factor on what bonds bear that have not cracked: more for a short time [1]."""
     response: FloatArray = field(default_factory=lambda: np.zeros((0, 0)))
     """Bond force components per node wrench, shape (6 m, 6 n); filled by ``assembled``."""
 
@@ -110,7 +112,7 @@ class BondGraph:
     def ratios(self, components: FloatArray) -> FloatArray:
         """Return load over strength of each bond [1], shape (..., m), under components as ``stresses`` takes them."""
         membrane, bending = self.stresses(components)
-        loads = membrane / self.strengths + bending / self.bending_strength
+        loads = (membrane / self.strengths + bending / self.bending_strength) / self.hardening
         if not self.cracked.any():
             return loads
         pull = np.maximum(components[..., 0], 0.0) / (self.widths * self.membrane_strength)

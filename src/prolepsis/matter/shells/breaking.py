@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -17,10 +16,12 @@ from prolepsis.geometry.shape import FloatArray
 from prolepsis.log.happenings import Happening, detachment
 from prolepsis.matter.shells.bond_graph import BondGraph
 from prolepsis.matter.shells.calibration import calibrated_graph
-from prolepsis.matter.shells.cascade import Cascade, Cracking, Pressing, cascade, onset
+from prolepsis.matter.shells.cascade import Cascade, Cracking, Pressing, cascade
 from prolepsis.matter.shells.contact import DAMPING_RATIO, ShellContact, closing_speed, shares_before
 from prolepsis.matter.shells.dents import ShellDents
+from prolepsis.matter.shells.fragment import Fragment, calm_force
 from prolepsis.matter.shells.parts import Shell
+from prolepsis.matter.shells.slow_cracks import SlowCracks
 from prolepsis.scene.kind import Controller
 from prolepsis.scene.running import MAX_STEP, Running
 
@@ -32,22 +33,18 @@ at its pole. What is lighter and stiffer takes shorter ones."""
 STEADY_STEP = 2.0
 """Under one steady contact a substep is longer by this factor [1]: there is no impact to follow, and contact is stable
 below 2 rad. Several contacts are as stiff as all of them together."""
-IMPACT_SHARE = 0.5
+IMPACT_SHARE = 0.33
 """What comes closer does so in a substep by at most this part of what the shell gives until it breaks [1]."""
 SHORTEST_STEP = 1.5e-5
 """No substep is shorter than this [s]."""
 DAMPED = 0.1
 """Share of the force under which a dent goes in that damping makes at most [1]."""
-BETWEEN_SAMPLES = 0.9
-"""Margin of the screen for contacts between its sampled points [1]."""
 LIGHT = 0.2
 """A fragment that is pressed less than this [N] is not computed: shards break at some newtons."""
 LOOK_TICKS = 4
 """Under steady forces the loads are computed anew every so many ticks."""
 GROWN = 1.2
 """So are those of a fragment, whose contacts are never steady, unless its forces have grown by this factor [1]."""
-SLIDING = 1.3
-"""In that time a contact that slides at 0.3 m/s moves by a sixth of its spread; loads rise by less than this [1]."""
 STEADY_CHANGE = 0.02
 """Contact forces are steady while they change by less than this part of what the screen allows [1] ..."""
 STEADY_TIME = 3.0e-3
@@ -56,41 +53,6 @@ STEADY_LOAD = 0.8
 """... and no bond bears more than this part of its strength [1]."""
 FORCE_ROWS = np.arange(3)
 """Rows of the normal and the two tangential forces of a contact, from its first one."""
-
-
-@dataclass(kw_only=True, slots=True)
-class Fragment:
-    """A rigid part of a broken or intact shell."""
-
-    body: str
-    """Name of the rigid body."""
-    graph: BondGraph
-    """Its pieces and bonds."""
-    origin: FloatArray
-    """Place of the body's frame in the shell's frame [m], shape (3,)."""
-    calm: float
-    """Contact forces may add up to this before a bond can break [N]."""
-    load: float = 0.0
-    """Greatest bond load over strength at the last full check [1]."""
-    total: float = 0.0
-    """Sum of the normal forces when it was last looked at [N]."""
-    parts: Sequence[BondGraph] = ()
-    """What it has just fallen apart into."""
-    rows: FloatArray | None = None
-    """All contact forces in the scene at the last full check [N], as MuJoCo lists them."""
-
-    def set(self, parts: Sequence[BondGraph]) -> None:
-        """Go on as what is left: one graph, or several if it has fallen apart."""
-        if len(parts) > 1:
-            self.parts = parts
-        else:
-            self.graph, self.calm = parts[0], _calm(parts[0])
-
-    def is_steady(self, rows: FloatArray) -> bool:
-        """Return whether the contact forces are so near those last checked that no bond can have come to break."""
-        if self.rows is None or self.rows.shape != rows.shape:
-            return False
-        return SLIDING * self.load + float(np.abs(rows - self.rows).sum()) / self.calm < 1
 
 
 class Breaking(Controller):
@@ -124,10 +86,12 @@ class Breaking(Controller):
             membrane_strength=quantities.get("shellMembraneStrength", 0.0),
             membrane_stretch=quantities.get("shellMembraneStretch", 1.0),
         )
-        self.fragments = [Fragment(body=thing.name, graph=graph, origin=np.zeros(3), calm=_calm(graph))]
+        whole = Fragment(body=thing.name, graph=graph, origin=np.zeros(3), calm=calm_force(graph))
+        whole.slow = SlowCracks.of(quantities)
+        self.fragments = [whole]
         self.intact = True
         self.load = 0.0
-        """Greatest bond load over strength in the tick [1]; 0 while the screen shows that none can break."""
+        """Greatest bond load in the tick over what it bears [1]; 0 while the screen shows that none can break."""
         self.force = 0.0
         """Greatest sum of normal forces on one body in the tick [N]."""
         self.pressed_in = 0.0
@@ -139,6 +103,8 @@ class Breaking(Controller):
         self._calm = False
         self._active = -1
         self._last: tuple[int, dict[int, float]] = (-1, {})
+        self._time, self._elapsed = float(state.data.time), 0.0
+        """When its loads were last looked at, and how long before that they had been [s]."""
         self._approach = 0.0
         """Speed with which something comes closer [m/s]."""
         self._before: list[tuple[int, int, int, float]] = []
@@ -189,6 +155,7 @@ class Breaking(Controller):
 
     def act(self, state: Running) -> None:
         """Break what the contact forces of the last substep overload."""
+        self._elapsed, self._time = float(state.data.time) - self._time, float(state.data.time)
         if not state.data.ncon:
             self._steady = False
             return
@@ -200,7 +167,9 @@ class Breaking(Controller):
         detached: list[Happening] = []
         for body, total in totals.items():
             fragment = self._watched[body]
-            if total >= fragment.calm and (self.intact or self._fresh or total > GROWN * fragment.total):
+            if total < fragment.calm:
+                fragment.whole = 0.0
+            elif self.intact or self._fresh or total > GROWN * fragment.total:
                 fragment.total = total
                 detached += self._check(state, body, fragment)
         self._fresh = False
@@ -268,21 +237,21 @@ class Breaking(Controller):
         """Return what breaks of a fragment that is pressed hard enough to look at its bonds."""
         if not len(fragment.graph.response):
             fragment.graph = fragment.graph.assembled()
-            fragment.calm = _calm(fragment.graph)
+            fragment.calm = calm_force(fragment.graph)
         forces = state.data.efc_force
         # Between looks nothing slides far: if the forces stay, so do the loads.
         if not self._fresh and fragment.is_steady(forces):
-            self.load = max(self.load, fragment.load)
+            self.load = max(self.load, fragment.stays(self._elapsed))
             return []
         pressing = self._pressing(state, body, fragment)
         shares = self._easing(state, pressing)
         # A crack runs faster than what presses moves: the force falls before that has come any farther.
-        first = shares(None)
+        first, graph = shares(None), fragment.graph
         if self.intact:
             before = shares_before(state, self._number, self._before, pressing.numbers)
-            first = onset(fragment.graph, pressing, np.minimum(before, first), first)
-        made = self._cascade(fragment.graph, pressing, first, shares)
-        fragment.load = made.load
+            first, graph = fragment.borne(pressing, np.minimum(before, first), first, self._elapsed)
+        made = self._cascade(graph, pressing, first, shares)
+        fragment.load = made.load * graph.hardening
         fragment.rows = forces.copy()
         if not made.changed:
             return []
@@ -384,17 +353,3 @@ class Breaking(Controller):
         """Return whether anything is near the intact thing."""
         number = self._number
         return bool(state.data.ncon) and bool([pair for pair in state.touching() if number in pair])
-
-
-def _calm(graph: BondGraph) -> float:
-    """Return a contact force below which no bond can break, wherever it acts: the screen before the full check [N].
-
-    The stress under several forces is at most the sum of the stresses under each alone, in whatever direction it
-    pulls, so the greatest stress under a unit force at sampled points bounds them all.
-    """
-    if not len(graph.bonds):
-        return math.inf
-    points = np.concatenate([graph.centres, graph.centres[graph.bonds].mean(axis=1)])
-    wrenches = np.moveaxis(graph.wrenches_per_force(points), 0, 1).reshape(6 * len(graph.nodes), -1)
-    components = (graph.response @ wrenches).reshape(len(graph.bonds), 6, len(points), 3)
-    return float(BETWEEN_SAMPLES / graph.ratios(np.linalg.norm(components, axis=3).transpose(2, 0, 1)).max())

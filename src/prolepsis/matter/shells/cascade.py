@@ -107,8 +107,14 @@ def cascade(
     return Cascade(parts=parts, load=load, worst=worst, changed=changed, broken=tuple(broken), shares=shares)
 
 
-def onset(graph: BondGraph, pressing: Pressing, before: FloatArray, now: FloatArray) -> FloatArray:
-    """Return the shares of the contact forces under which the first bond gives way [1], shape (c,).
+def onset(
+    graph: BondGraph,
+    pressing: Pressing,
+    before: FloatArray,
+    now: FloatArray,
+    bears: Callable[[FloatArray, float], bool],
+) -> tuple[FloatArray, float]:
+    """Return the shares of the contact forces under which the first bond gives way [1], shape (c,), and when [1].
 
     In a substep the forces go from what they were to what they are, and a crack runs as soon as a bond is overloaded.
     How much is overloaded at the end hangs on the substep.
@@ -118,15 +124,16 @@ def onset(graph: BondGraph, pressing: Pressing, before: FloatArray, now: FloatAr
         pressing: The contact forces at the end.
         before: Share of them at the beginning [1], shape (c,).
         now: Share of them at the end [1], shape (c,).
+        bears: Tells whether all bonds bear the loads, shape (m,), to which they have come in a part of the substep [1].
     """
-    if float(pressing.loads(graph, now).max()) <= 1:
-        return now
+    if bears(pressing.loads(graph, now), 1.0):
+        return now, 1.0
     low, high = 0.0, 1.0
     for _ in range(HALVINGS):
         middle = (low + high) / 2
-        bears = float(pressing.loads(graph, before + middle * (now - before)).max()) < 1
-        low, high = (middle, high) if bears else (low, middle)
-    return before + high * (now - before)
+        borne = bears(pressing.loads(graph, before + middle * (now - before)), middle)
+        low, high = (middle, high) if borne else (low, middle)
+    return before + high * (now - before), high
 
 
 def _pressed_out(graph: BondGraph, pressing: Pressing, shares: FloatArray, bears: float) -> IntArray:

@@ -22,6 +22,9 @@ OF_A_SHELL = (
     "crackTipWeakening",
     "crackedForceShare",
     "crackReliefShare",
+    "crackGrowthExponent",
+    "breakingTime",
+    "briefForceRatio",
     "shellMembraneStrength",
     "shellMembraneStretch",
     "shellThickness",
@@ -49,7 +52,7 @@ class Shells(Kind):
     channels = (
         Channel(
             name="load",
-            doc="the greatest bond load over strength [1], or 0 where a screen shows that none can break",
+            doc="the greatest bond load over what it bears so fast [1], or 0 where a screen shows that none can break",
             role="Breakable",
             default=True,
         ),
