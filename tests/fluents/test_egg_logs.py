@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from tests.fluents.logs import PLATES, Draft, egg, floor
 from tests.fluents.worlds import at_end, ever, of_type, times
 
@@ -71,6 +72,36 @@ def test_each_burst_of_detachments_is_one_breaking_and_broken_lasts() -> None:
     assert times(timeline, "broken(egg1)") == [(0.2, 0.8)]
     first, second = timeline.select(type="breaking")
     assert (first.evidence["bonds"], first.evidence["force"], second.evidence["bonds"]) == (2.0, 36.0, 1.0)
+
+
+def test_what_cracks_is_open_once_it_falls_apart_and_two_halves_are_not_crushed() -> None:
+    timeline = broken_egg()
+    assert times(timeline, "cracked(egg1)") == [(0.2, 0.3)]
+    assert times(timeline, "open(egg1)") == [(0.3, 0.8)]
+    (cracked,), (opened,) = timeline.select(type="cracked"), timeline.select(type="open")
+    assert (cracked.evidence["bonds"], opened.evidence["parts"]) == (3.0, 2.0)
+    assert opened.evidence["equal_parts"] == pytest.approx(2.0)
+    assert timeline.ask("holds(crushed(egg1), T)") == []
+    assert not [fact for fact in timeline.near_misses if fact.type == "crushed"]
+
+
+@pytest.mark.parametrize(("parts", "is_crushed"), [(1, False), (2, False), (4, True), (10, True)])
+def test_in_finer_parts_than_three_equal_ones_it_is_crushed(parts: int, is_crushed: bool) -> None:
+    draft = Draft(400, [floor(), *egg()])
+    whole, pieces = draft.index("egg1"), [draft.index(f"eggshell1/piece{k}") for k in range(2 * PLATES)]
+    draft.carrier[:, [whole, *pieces]] = whole
+    # A burst: it cracks and falls apart within a few milliseconds.
+    lead = [pieces[k * parts // len(pieces) * len(pieces) // parts] for k in range(len(pieces))]
+    if parts > 1:
+        draft.carrier[105:, [whole, *pieces]] = [-1, *lead]
+    bond = Detachments(
+        tick=np.array([100]), thing=np.array([whole]), a=np.array([pieces[0]]), b=np.array([pieces[1]]),
+        force=np.array([36.0]),
+    )  # fmt: skip
+    timeline = recognize(draft.log(detachments=bond))
+    assert times(timeline, "cracked(egg1)") == ([(0.1, 0.4)] if parts == 1 else [])
+    assert times(timeline, "open(egg1)") == ([(0.105, 0.4)] if parts > 1 else [])
+    assert times(timeline, "crushed(egg1)") == ([(0.105, 0.4)] if is_crushed else [])
 
 
 def test_a_cracked_egg_keeps_its_name_until_it_falls_apart() -> None:

@@ -69,6 +69,7 @@ RANGES: Mapping[str, Range] = {
     "tilt_before": Range(least=0.0, greatest=math.pi, why="angle between two directions [rad]"),
     "bonds": _count("detached bonds"),
     "parts": _count("parts of a shell"),
+    "equal_parts": _count("parts of a shell"),
 }
 """The numbers that are measured in a log, by name. Of others, which actions note, it is known that they are finite."""
 

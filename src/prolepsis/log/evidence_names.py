@@ -42,6 +42,7 @@ EVIDENCE_UNITS: Mapping[str, str] = {
     "tilt_before": "rad",
     "bonds": "1",
     "parts": "1",
+    "equal_parts": "1",
     "pieces": "1",
     "pieces_off": "1",
     "tries": "1",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from prolepsis.fluents.intervals import debounce
 from prolepsis.fluents.margins import NearMiss, nearly
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event, fluent
-from prolepsis.geometry.shape import IntArray
+from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.log.timeline import Fact
 
 BURST = 0.01
@@ -31,16 +32,42 @@ def breaking(observation: Observation) -> Iterator[Fact]:
             yield observation.fact("event", "breaking", (name,), (start, end), evidence)
 
 
-def _parts(observation: Observation, whole: int) -> dict[str, float]:
-    """Return into how many parts a shell has fallen at the end, and the two largest as shares of its mass."""
-    log, tops = observation.log, observation.of(_tops)
-    pieces = [i for i, thing in enumerate(log.things) if "Piece" in thing.roles and tops[i] == whole]
-    mass = np.array([log.things[i].mass for i in pieces])
-    if not mass.sum() > 0:
-        return {}
-    _, part = np.unique(log.carrier[-1, pieces], return_inverse=True)
-    shares = np.sort(np.bincount(part, mass))[::-1] / mass.sum()
-    return {"parts": float(len(shares)), "largest": float(shares[0]), "second": float(shares[1:2].sum())}
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Parts:
+    """What a whole that consists of pieces is in, for each segment of the observation."""
+
+    shares: tuple[FloatArray, ...]
+    """Mass of each part over that of all, the largest first [1]."""
+
+    @property
+    def equal(self) -> FloatArray:
+        """Number of equal parts of the same fineness [1], shape (S,): that of parts of one mass is their number, and
+        crumbs hardly count."""
+        return np.array([1 / (shares @ shares) for shares in self.shares])
+
+    def at_end(self) -> dict[str, float]:
+        """Return the number of parts when the log ends, how fine they are, and the two largest as shares."""
+        last = self.shares[-1]
+        named = {"parts": float(len(last)), "equal_parts": float(self.equal[-1])}
+        return named | {"largest": float(last[0]), "second": float(last[1:2].sum())}
+
+
+def parts_of(observation: Observation) -> dict[int, Parts]:
+    """Return what each whole of pieces that breaks is in."""
+    log, tops, found = observation.log, observation.of(_tops), dict[int, Parts]()
+    for whole in observation.of(detached_rows):
+        pieces = [i for i, thing in enumerate(log.things) if "Piece" in thing.roles and tops[i] == whole]
+        mass = np.array([log.things[i].mass for i in pieces])
+        if mass.sum() > 0:
+            carriers = log.carrier[observation.segments][:, pieces]
+            found[whole] = Parts(shares=tuple(_shares(row, mass) for row in carriers))
+    return found
+
+
+def _shares(carrier: IntArray, mass: FloatArray) -> FloatArray:
+    """Return the mass of each part over that of all, the largest first."""
+    _, part = np.unique(carrier, return_inverse=True)
+    return np.sort(np.bincount(part, mass))[::-1] / mass.sum()
 
 
 @fluent("broken", "o")
@@ -50,7 +77,8 @@ def broken(observation: Observation) -> Iterator[Fact | NearMiss]:
     for whole, rows in observation.of(detached_rows).items():
         stretch = int(detachments.tick[rows].min()), observation.tick_count
         evidence = {"bonds": float(len(rows)), "force": float(detachments.force[rows].max())}
-        evidence |= _parts(observation, whole)
+        parts = observation.of(parts_of).get(whole)
+        evidence |= {} if parts is None else parts.at_end()
         yield observation.fact("fluent", "broken", (observation.log.things[whole].name,), stretch, evidence)
     yield from _nearly_broken(observation)
 

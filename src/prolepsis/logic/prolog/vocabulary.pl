@@ -34,6 +34,8 @@ fact_type(colliding, 2, event).
 fact_type(comprises, 2, fluent).
 fact_type(contacts, 2, fluent).
 fact_type(contains, 2, fluent).
+fact_type(cracked, 1, fluent).
+fact_type(crushed, 1, fluent).
 fact_type(dented, 1, fluent).
 fact_type(dirty, 1, fluent).
 fact_type(dripping, 2, event).
@@ -57,6 +59,7 @@ fact_type(lifting, 4, event).
 fact_type(lookingAt, 2, event).
 fact_type(moving, 1, event).
 fact_type(on, 2, fluent).
+fact_type(open, 1, fluent).
 fact_type(openingGripper, 1, event).
 fact_type(peeling, 4, event).
 fact_type(peeling, 5, event).
@@ -102,6 +105,7 @@ evidence_unit(command, 'N').
 evidence_unit(depth, m).
 evidence_unit(distance, m).
 evidence_unit(ends, '').
+evidence_unit(equal_parts, '1').
 evidence_unit(fill, '1').
 evidence_unit(force, 'N').
 evidence_unit(fraction, '1').

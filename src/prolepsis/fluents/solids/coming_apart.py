@@ -1,0 +1,73 @@
+"""``cracked(a)``, ``open(a)``, ``crushed(a)``: how far what is broken has come apart.
+
+Cracked, it is one body still; open, it is not; crushed, it is in many parts. So ``cracked`` and ``open`` exclude each
+other, and what is crushed is open.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from prolepsis.fluents.intervals import ticks_of
+from prolepsis.fluents.margins import NearMiss, margin_of, nearly
+from prolepsis.fluents.observation import Observation
+from prolepsis.fluents.registry import fluent
+from prolepsis.fluents.solids.damage import BURST, Parts, detached_rows, parts_of
+from prolepsis.geometry.shape import FloatArray, IntArray
+from prolepsis.log.near import MARGIN
+from prolepsis.log.timeline import Evidence, Fact
+
+CRUSHED = 3.0
+"""What is in as small parts as so many equal ones is crushed [1]: two halves with some crumbs, as a cook makes them,
+are not, nor a shell with a hole."""
+
+
+@fluent("cracked", "o")
+def cracked(observation: Observation) -> Iterator[Fact]:
+    """Bonds of the thing have given way, but it is one body still: what is inside stays there."""
+    for whole, rows in observation.of(detached_rows).items():
+        parts = observation.of(parts_of).get(whole)
+        if parts is None:
+            continue
+        tick = observation.log.detachments.tick[rows]
+        start, end = int(tick.min()), _opened(observation, parts)
+        # What opens within the burst that cracked it has never been only cracked.
+        if end - start > ticks_of(BURST, observation.dt):
+            here = rows[tick < end]
+            evidence = {"bonds": float(len(here)), "force": float(observation.log.detachments.force[here].max())}
+            yield _fact(observation, "cracked", whole, (start, end), evidence)
+
+
+@fluent("open", "o")
+def open_(observation: Observation) -> Iterator[Fact]:
+    """The thing has fallen apart: what is inside can get out."""
+    for whole, parts in observation.of(parts_of).items():
+        start = _opened(observation, parts)
+        if start < observation.tick_count:
+            yield _fact(observation, "open", whole, (start, observation.tick_count), parts.at_end())
+
+
+@fluent("crushed", "o")
+def crushed(observation: Observation) -> Iterator[Fact | NearMiss]:
+    """The thing is in many parts: in as small ones as three that are equal, or smaller."""
+    for whole, parts in observation.of(parts_of).items():
+        ratio: FloatArray = observation.spread(parts.equal) / CRUSHED
+        start = int(np.argmax(ratio >= 1)) if ratio[-1] >= 1 else observation.tick_count
+        stretches: IntArray = np.array([[start, observation.tick_count]], dtype=np.int64)
+        if start < observation.tick_count:
+            evidence = parts.at_end() | {MARGIN: margin_of(ratio, start, observation.tick_count)}
+            yield _fact(observation, "crushed", whole, (start, observation.tick_count), evidence)
+        name = observation.log.things[whole].name
+        yield from nearly(observation, ("fluent", "crushed", (name,)), ratio, stretches)
+
+
+def _opened(observation: Observation, parts: Parts) -> int:
+    """Return the tick from which it is in more than one part, or that at which the log ends."""
+    apart = np.flatnonzero(parts.equal > 1)
+    return int(observation.segments[apart[0]]) if len(apart) else observation.tick_count
+
+
+def _fact(observation: Observation, type: str, whole: int, stretch: tuple[int, int], evidence: Evidence) -> Fact:
+    return observation.fact("fluent", type, (observation.log.things[whole].name,), stretch, evidence)
