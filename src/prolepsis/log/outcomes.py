@@ -8,6 +8,7 @@ from typing import Literal
 Outcome = Literal[
     "done",
     "dropped",
+    "crushed",
     "missed",
     "not_held",
     "not_reached",
@@ -22,6 +23,7 @@ Outcome = Literal[
 OUTCOMES: Mapping[Outcome, str] = {
     "done": "what the action aims at was reached, within the tolerance that docs/actions.md states beside it",
     "dropped": "the hand no longer holds what it held when the action began",
+    "crushed": "the force of the hand, or the one with which it pressed, broke what it held",
     "missed": "the pads closed on something else than they should, or on nothing; or a blow met nothing",
     "not_held": "the hand does not hold what the action is done with",
     "not_reached": "the action went on to its end, but fell short of its force, place, angle or speed",
@@ -33,7 +35,7 @@ OUTCOMES: Mapping[Outcome, str] = {
 }
 """All outcomes."""
 
-GOES_ON = frozenset[Outcome]({"done", "dropped", "not_reached"})
+GOES_ON = frozenset[Outcome]({"done", "dropped", "crushed", "not_reached"})
 """After these, what follows in a sequence is done: the action has gone its way to the end. The others end it."""
 CARRYING = frozenset({"lift", "carry", "tilt", "bring", "hold"})
 """These move whatever the hand holds: by one that grips nothing they are ``not_held``, but go their way to the end."""

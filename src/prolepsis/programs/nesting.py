@@ -8,6 +8,7 @@ from typing import Any
 from prolepsis.log.outcomes import CARRYING, Outcome
 from prolepsis.log.things import Thing
 from prolepsis.programs.action import ACTIONS
+from prolepsis.programs.crushing import Crushing
 from prolepsis.robots.commands import ActionFailedError, Begin, Behaviour, End, HandSense, Measured, Sense, is_instant
 from prolepsis.scene.scene import Scene
 from prolepsis.terms.terms import Term, Value
@@ -45,6 +46,8 @@ def as_event(
     held = {each: {*sense.hands[each].held()} for each in hands if sense.hands[each].grip > 0}
     empty = [each for each in held if not held[each] and name in CARRYING]
     lost = dict.fromkeys(hands, 0)
+    crushing = Crushing(arguments, hands, set[str]().union(*held.values()), sense)
+    crushed: dict[str, float | str] = {}
     sense = yield (Begin(term=term, arguments=named),)
     first = True
     while True:
@@ -54,6 +57,8 @@ def as_event(
             sense = ended.value
             break
         except ActionFailedError as failed:
+            if crushed:
+                break
             evidence["reason"] = failed.detail
             yield (End(term=term, outcome=failed.outcome, evidence=evidence),)
             raise
@@ -65,13 +70,16 @@ def as_event(
         sense = yield made
         if is_instant(made):
             continue
+        crushed |= crushing.look(sense)
         for each in hands:
             hand = sense.hands[each]
             if hand.pad_force > peak:
                 evidence["peak_pad_force"] = peak = hand.pad_force
             lost[each] = lost[each] + 1 if hand.grip > 0 and hand.pad_force == 0 else 0
     dropped = any(_is_dropped(sense.hands[each], held[each], lost[each]) for each in held)
-    if dropped:
+    if crushed:
+        outcome, evidence = "crushed", evidence | crushed
+    elif dropped:
         outcome = "dropped"
     elif outcome == "done" and any(_grips_nothing(sense.hands[each], lost[each]) for each in empty):
         # The way is gone to its end all the same: the robot does not know it by itself.
