@@ -17,7 +17,7 @@ from prolepsis.engine.stretches import Matter, Stretch
 from prolepsis.geometry.rotations import matrices
 from prolepsis.geometry.shape import BoolArray, FloatArray, Geom, IntArray
 from prolepsis.geometry.solids import Solid, solid_of
-from prolepsis.log.things import Thing
+from prolepsis.log.things import Thing, pressed_in
 
 DEEPEST = 0.02
 """A solid may sink into another by so much for a moment [m], or by a quarter of its size if that is more: contacts
@@ -50,14 +50,15 @@ def crossings(things: Sequence[Thing], poses: FloatArray, stretches: Sequence[St
     """Yield the first crossing of each pair of things while the model stays the same.
 
     What comes free of a broken whole weighs grams and is thinner than a contact is soft: it is not followed through
-    what is driven, as the pads that have just crushed it, nor through its like.
+    what is driven, as the pads that have just crushed it, nor through its like. What is soft has a law of its own for
+    what breaks, under which it cannot be passed.
 
     Args:
         things: The things of the run.
         poses: Of each thing at each tick, shape (T, n, 7).
         stretches: What could touch something when.
     """
-    small = np.array([thing.emerges for thing in things])
+    small, yielding = np.array([thing.emerges for thing in things]), pressed_in(things)
     reach = np.array([_reach(thing.shape.geoms) for thing in things])
     # By number: to hash a mesh takes longer than to look at it.
     solids: dict[tuple[int, int], _Followed] = {}
@@ -70,7 +71,7 @@ def crossings(things: Sequence[Thing], poses: FloatArray, stretches: Sequence[St
         motion = _Motion.of(poses[stretch.start : stretch.end + 1], reach)
         for mover, obstacle in _pairs(matter, stretch.bodies.driven, small, reach):
             blocks = motion.near(mover, obstacle)
-            if not len(blocks):
+            if not len(blocks) or frozenset((mover, obstacle)) in yielding:
                 continue
             own, other = np.flatnonzero(matter.thing == mover), np.flatnonzero(matter.thing == obstacle)
             solid_pairs = list(

@@ -10,7 +10,7 @@ import numpy as np
 from prolepsis.engine.stretches import Matter
 from prolepsis.geometry.shape import FloatArray, Geom, IntArray
 from prolepsis.geometry.solids import solid_of
-from prolepsis.log.things import Thing
+from prolepsis.log.things import Thing, pressed_in
 
 SHARE = 0.1
 """A thing may stay pressed in by this share of its size [1]: what goes deeper is not on something but in it."""
@@ -54,7 +54,8 @@ class Sinking:
 def sinkings(things: Sequence[Thing], overlaps: Overlaps, matters: Sequence[Matter], dt: float) -> Iterator[Sinking]:
     """Yield what stayed too deep in something else.
 
-    What comes free of a broken whole is left out: shards are curved, and in contact are as thick as they are high.
+    What comes free of a broken whole is left out: shards are curved, and in contact are as thick as they are high. So
+    is what presses on something soft and breaks.
 
     Args:
         things: The things of the run.
@@ -62,13 +63,14 @@ def sinkings(things: Sequence[Thing], overlaps: Overlaps, matters: Sequence[Matt
         matters: What could touch something in each model.
         dt: Tick [s].
     """
-    needed = round(LASTING / dt)
+    needed, yielding = round(LASTING / dt), pressed_in(things)
     keys = np.column_stack([overlaps.version, np.sort(overlaps.geoms, axis=1)])
     pairs, pair_of = np.unique(keys, axis=0, return_inverse=True)
     for number, key in enumerate(pairs):
         matter: Matter = matters[int(key[0])]
         rows = sorted((matter.row(int(key[1])), matter.row(int(key[2]))), key=lambda row: bool(matter.fixed[row]))
-        if any(things[int(matter.thing[row])].emerges for row in rows):
+        pair = frozenset(int(matter.thing[row]) for row in rows)
+        if pair in yielding or any(things[i].emerges for i in pair):
             continue
         limit = _limit([(things[int(matter.thing[row])], matter.solid(row, things)) for row in rows])
         chosen = np.flatnonzero((pair_of.ravel() == number) & (overlaps.depth > limit))

@@ -107,6 +107,14 @@ def falling_apart(things: Sequence[Thing]) -> frozenset[str]:
     return frozenset(found)
 
 
+def pressed_in(things: Sequence[Thing]) -> frozenset[frozenset[int]]:
+    """Return which pairs of things, by number, may go into each other: something soft, and what falls apart or has."""
+    brittle = falling_apart(things)
+    soft = [i for i, thing in enumerate(things) if "densificationStrain" in thing.quantities]
+    hard = [i for i, thing in enumerate(things) if thing.emerges or thing.name in brittle]
+    return frozenset(frozenset({i, j}) for i in soft for j in hard if i != j)
+
+
 def _frame(thing: Thing) -> tuple[Triple, Quaternion]:
     return thing.position, thing.orientation
 

@@ -156,6 +156,7 @@ class('Breakable').
 class('BrokenThing').
 class('BucklingBowl').
 class('CandyShell').
+class('Carpet').
 class('ChocolateKernel').
 class('ClayBowl').
 class('Coconut').
@@ -167,6 +168,7 @@ class('Cup').
 class('DentingBowl').
 class('DirtyThing').
 class('Egg').
+class('EggBox').
 class('EggContent').
 class('EggKernel').
 class('EggShell').
@@ -175,6 +177,7 @@ class('EggYolk').
 class('Enclosure').
 class('Event').
 class('Floor').
+class('FoamPad').
 class('ForceLevel').
 class('Fragile').
 class('Furniture').
@@ -185,6 +188,7 @@ class('Hand').
 class('HardBoiledEgg').
 class('Honey').
 class('Kernel').
+class('Lawn').
 class('Liquid').
 class('LiquidContainer').
 class('MandM').
@@ -193,8 +197,10 @@ class('Milk').
 class('Obstacle').
 class('OliveOil').
 class('PR2').
+class('Padding').
 class('PancakeBatter').
 class('PaperBowl').
+class('PaperTowel').
 class('Part').
 class('PhysicalObject').
 class('Pouring').
@@ -212,6 +218,7 @@ class('Solid').
 class('Sponge').
 class('Stuff').
 class('Table').
+class('Towel').
 class('Vessel').
 class('Wall').
 class('Water').
@@ -229,6 +236,8 @@ parent('Breakable', 'PhysicalObject').
 parent('BrokenThing', 'PhysicalObject').
 parent('BucklingBowl', 'YieldingBowl').
 parent('CandyShell', 'Shell').
+parent('Carpet', 'Floor').
+parent('Carpet', 'Padding').
 parent('ChocolateKernel', 'Kernel').
 parent('ClayBowl', 'DentingBowl').
 parent('Coconut', 'Shelled').
@@ -242,6 +251,7 @@ parent('DentingBowl', 'YieldingBowl').
 parent('DirtyThing', 'PhysicalObject').
 parent('Egg', 'PhysicalObject').
 parent('Egg', 'Shelled').
+parent('EggBox', 'Padding').
 parent('EggContent', 'ShellContent').
 parent('EggKernel', 'EggContent').
 parent('EggKernel', 'Kernel').
@@ -253,6 +263,7 @@ parent('EggYolk', 'Liquid').
 parent('EggYolk', 'Membraned').
 parent('Enclosure', 'Solid').
 parent('Floor', 'Furniture').
+parent('FoamPad', 'Padding').
 parent('Fragile', 'PhysicalObject').
 parent('Furniture', 'Solid').
 parent('GlassBowl', 'Bowl').
@@ -263,6 +274,8 @@ parent('HardBoiledEgg', 'Egg').
 parent('Honey', 'Liquid').
 parent('Kernel', 'ShellContent').
 parent('Kernel', 'Solid').
+parent('Lawn', 'Floor').
+parent('Lawn', 'Padding').
 parent('Liquid', 'Stuff').
 parent('LiquidContainer', 'Container').
 parent('MandM', 'Shelled').
@@ -271,8 +284,10 @@ parent('Milk', 'Liquid').
 parent('Obstacle', 'Furniture').
 parent('OliveOil', 'Liquid').
 parent('PR2', 'Robot').
+parent('Padding', 'Solid').
 parent('PancakeBatter', 'Liquid').
 parent('PaperBowl', 'BucklingBowl').
+parent('PaperTowel', 'Towel').
 parent('Pouring', 'Event').
 parent('QuailEgg', 'Egg').
 parent('QuailEggShell', 'EggShell').
@@ -287,6 +302,7 @@ parent('Solid', 'PhysicalObject').
 parent('Sponge', 'Absorbent').
 parent('Stuff', 'PhysicalObject').
 parent('Table', 'Furniture').
+parent('Towel', 'Padding').
 parent('Vessel', 'Enclosure').
 parent('Wall', 'Furniture').
 parent('Water', 'Liquid').
@@ -345,6 +361,8 @@ property(crackGrowthExponent, '1').
 property(crackReliefShare, '1').
 property(crackTipWeakening, '1').
 property(crackedForceShare, '1').
+property(cushionedBreakingForce, 'N').
+property(densificationStrain, '1').
 property(density, 'kg/m3').
 property(depth, m).
 property(dirty, '').
@@ -370,6 +388,7 @@ property(mass, kg).
 property(membraneForce, 'N').
 property(on, '').
 property(opening, m).
+property(paddingThickness, m).
 property(panelCount, '1').
 property(partOf, '').
 property(pieceCount, '1').

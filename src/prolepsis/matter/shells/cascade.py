@@ -29,7 +29,7 @@ class Pressing:
     points: FloatArray
     """In the shell's frame [m], shape (c, 3)."""
     forces: FloatArray
-    """On the fragment, in the same frame [N], shape (c, 3)."""
+    """On the fragment, in the same frame, as far as they load it as between plates [N], shape (c, 3)."""
     normal: FloatArray
     """Normal forces [N], shape (c,)."""
 

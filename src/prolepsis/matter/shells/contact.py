@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -11,6 +12,8 @@ from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.log.things import Thing
 from prolepsis.scene.running import Running
 
+NEAR = 0.01
+"""Contacts of breakable things are detected at this distance [m], so that the substep shrinks before the impact."""
 DAMPING_RATIO = 0.05
 """Damping of shell contact [1]: a rigid but brittle shell rebounds well."""
 IMPEDANCE = 0.1
@@ -31,6 +34,8 @@ class ShellContact:
         self._plate_stiffness, self._pole_ratio = plate_stiffness, pole_ratio
         self.stiffness = 0.0
         """Of the shell where it is touched [N/m]."""
+        self.padded: frozenset[int] = frozenset()
+        """Pairs that are left to the law of padding."""
         self._damping: float = DAMPING_RATIO
 
     def update(self, state: Running, contact: int, damping: float = DAMPING_RATIO) -> None:
@@ -48,15 +53,20 @@ class ShellContact:
         model = state.model
         geom = model.geom(f"{self._thing.name}/0").id
         for p in range(model.npair):
-            if geom in (model.pair_geom1[p], model.pair_geom2[p]):
-                bodies = (model.geom_bodyid[model.pair_geom1[p]], model.geom_bodyid[model.pair_geom2[p]])
-                inverse_mass = model.body_invweight0[bodies[0], 0] + model.body_invweight0[bodies[1], 0]
+            if p not in self.padded and geom in (model.pair_geom1[p], model.pair_geom2[p]):
                 other = model.pair_geom1[p] if geom == model.pair_geom2[p] else model.pair_geom2[p]
                 soft = self._surfaces.get(model.geom(other).name.rpartition("/")[0])
                 # Two springs in series.
                 together = stiffness if soft is None else stiffness * soft / (stiffness + soft)
-                model.pair_solref[p] = direct_solref(together, inverse_mass, damping)
-                model.pair_solimp[p] = (IMPEDANCE, IMPEDANCE, 0.001, 0.5, 2)
+                stiffen(model, p, together, damping)
+
+
+def stiffen(model: Any, pair: int, stiffness: float, damping: float) -> None:
+    """Give a contact pair of a model, by its number, a stiffness [N/m] and damping [1]."""
+    bodies = model.geom_bodyid[[model.pair_geom1[pair], model.pair_geom2[pair]]]
+    inverse_mass = float(model.body_invweight0[bodies, 0].sum())
+    model.pair_solref[pair] = direct_solref(stiffness, inverse_mass, damping)
+    model.pair_solimp[pair] = (IMPEDANCE, IMPEDANCE, 0.001, 0.5, 2)
 
 
 def local_stiffness(semi_axes: FloatArray, along: float, plate_stiffness: float, pole_ratio: float) -> float:

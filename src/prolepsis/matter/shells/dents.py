@@ -15,6 +15,7 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.log.things import Thing
+from prolepsis.matter.shells.yielding import ShellPadding
 from prolepsis.scene.running import Running
 
 ROUNDS = 20
@@ -81,11 +82,12 @@ class Pressed:
 class ShellDents:
     """The dents in one shell that is one body."""
 
-    def __init__(self, thing: Thing, bears: float, deepest: float) -> None:
+    def __init__(self, thing: Thing, padding: ShellPadding, bears: float, deepest: float) -> None:
         """Look after ``thing``, which ``bears`` a force where it is cracked [N]; dents are at most ``deepest`` [m].
 
-        One that nothing lines (0) has none: it is brittle through and through.
+        One that nothing lines (0) has none: it is brittle through and through. Its ``padding`` lowers surfaces too.
         """
+        self._padding = padding
         self._thing, self._geom = thing.name, f"{thing.name}/0"
         self._bears, self._deepest = bears, deepest
         self._dents: dict[str, Dent] = {}
@@ -193,7 +195,7 @@ class ShellDents:
 
     def _press_in(self, state: Running, other: str, depth: float) -> None:
         for pair in self._pairs.get(other, ()):
-            state.model.pair_margin[pair] = -depth
+            state.model.pair_margin[pair] = -depth - self._padding.shift(pair)
 
     def bind(self, state: Running) -> None:
         """Look the contacts up in a model that is new."""

@@ -9,6 +9,7 @@ from types import MappingProxyType
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.log.happenings import DETACHMENT
 from prolepsis.log.things import Thing, friction_of, own_solids
+from prolepsis.matter.shells.contact import NEAR
 from prolepsis.matter.shells.parts import Membraned, Shell, egg_pools, shelled
 from prolepsis.scene.kind import Building, Channel, Controller, Draft, Individuals, Kind, Made
 from prolepsis.scene.running import Running
@@ -16,6 +17,7 @@ from prolepsis.scene.scene import Pool
 from prolepsis.terms.errors import KnowledgeError, brief_list
 
 OF_A_SHELL = (
+    "cushionedBreakingForce",
     "plateStiffness",
     "poleStiffnessRatio",
     "fractureStrain",
@@ -32,8 +34,6 @@ OF_A_SHELL = (
     "poissonRatio",
 )
 """What decides how a shell breaks, beside its breakingForce."""
-NEAR = 0.01
-"""Contacts of breakable things are detected at this distance [m], so that the substep shrinks before the impact."""
 
 
 class Shells(Kind):
@@ -76,6 +76,7 @@ class Shells(Kind):
         breaking = [kind.claims for kind in kinds if kind.claims is not None and DETACHMENT in kind.happenings]
         for name in kb.objects:
             _refuse_strength(kb, name, breaking)
+            _refuse_padding(kb, name)
 
     def parts(self, individuals: Individuals, whole: Thing) -> Made:
         """Return it with its parts."""
@@ -140,6 +141,18 @@ def _refuse_strength(kb: KnowledgeBase, name: str, breaking: Sequence[str]) -> N
         raise _unbreakable(kb, name, "has a breakingForce", breaking)
     if kb.whole(name) is None and kb.is_a(name, "Breakable") and not kb.is_a(name, "Shelled"):
         raise _unbreakable(kb, name, "is Breakable", breaking)
+
+
+def _refuse_padding(kb: KnowledgeBase, name: str) -> None:
+    """Refuse what is soft but not known how thick or stiff."""
+    if kb.find(name, "densificationStrain") is None:
+        return
+    needed = ["youngsModulus", *(["paddingThickness"] if kb.is_a(name, "Floor") else [])]
+    unknown = [each for each in needed if kb.number(name, each) is None]
+    if unknown:
+        raise KnowledgeError(
+            f"{kb.location(name)}: {name} ({kb.kind(name)}) has a densificationStrain, but no {', '.join(unknown)}"
+        )
 
 
 def _unbreakable(kb: KnowledgeBase, name: str, told: str, breaking: Sequence[str]) -> KnowledgeError:

@@ -1,0 +1,145 @@
+"""Yielding: what is soft gives way to a shell, by which it stops more slowly and is pressed on over a patch."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from prolepsis.geometry.shape import FloatArray, IntArray
+from prolepsis.log.things import Thing
+from prolepsis.matter.shells.contact import NEAR, ShellContact, stiffen
+from prolepsis.matter.shells.padding import Padding, concentration, padding_of, spread_under
+from prolepsis.scene.running import Running
+
+DAMPING_RATIO = 0.01
+"""Damping of contact with padding [1]: it loses energy by a law of its own."""
+SOFTEST = 1.0
+"""Stiffness of such a contact before it carries anything [N/m]."""
+HERTZ = 0.4
+"""Mean square of the distance of the pressure from its middle over the squared radius of a contact with a plate [1]."""
+
+
+@dataclass(kw_only=True, slots=True)
+class Padded:
+    """A contact pair of a shell with something soft."""
+
+    name: str
+    """Of the pair."""
+    geom: int
+    """The other one's number."""
+    padding: Padding
+    shift: float = 0.0
+    """Lowering of the surface by which the contact, as stiff as both are now, has the right force [m]."""
+    depth: float = 0.0
+    """By which the padding has given way [m]."""
+    height: float = 1.0
+    """That of the shell's middle over it, if neither were deformed [m]."""
+    out: FloatArray = field(default_factory=lambda: np.zeros(3))
+    """Unit normal out of it, world frame, shape (3,)."""
+
+
+class ShellPadding:
+    """What is soft and may touch one thing with an ellipsoidal shell."""
+
+    def __init__(self, thing: Thing, shell: Mapping[str, float], contact: ShellContact) -> None:
+        """Look after ``thing``, given the quantities of its ``shell`` and its ``contact`` with what is hard."""
+        self._thing, self._contact = thing, contact
+        self._semi_axes = np.array(thing.shape.geoms[0].size)
+        self._breaking_force = shell["breakingForce"]
+        # As at one point, if nothing is known.
+        self._cushioned_force = shell.get("cushionedBreakingForce", self._breaking_force)
+        self._thickness, self._poisson_ratio = shell["shellThickness"], shell["poissonRatio"]
+        self._padded: dict[int, Padded] = {}
+        self._number = -1
+
+    def __bool__(self) -> bool:
+        """Return whether there is any."""
+        return bool(self._padded)
+
+    def bind(self, state: Running) -> None:
+        """Look up in a model that is new which contacts are with something soft."""
+        known, model = {each.name: each for each in self._padded.values()}, state.model
+        self._number, self._padded = int(model.geom(f"{self._thing.name}/0").id), {}
+        for p, pair in enumerate(zip(model.pair_geom1.tolist(), model.pair_geom2.tolist(), strict=True)):
+            if self._number not in pair:
+                continue
+            other, name = pair[0] if pair[1] == self._number else pair[1], model.pair(p).name
+            extent = 2.0 * float(model.geom_aabb[other, 3:].min()) or math.inf
+            quantities = state.scene.thing(model.geom(other).name.rpartition("/")[0]).quantities
+            found = padding_of(quantities, extent, extent / 2.0 + float(self._semi_axes.min()))
+            if found is not None:
+                self._padded[p] = known.get(name) or Padded(name=name, geom=other, padding=found)
+                self._padded[p].geom = other
+                model.pair_gap[p] = NEAR + self._padded[p].shift
+                if name not in known:
+                    stiffen(model, p, SOFTEST, DAMPING_RATIO)
+        self._contact.padded = frozenset(self._padded)
+
+    def shift(self, pair: int) -> float:
+        """Return by how much the surface of a contact pair is lowered [m]."""
+        return self._padded[pair].shift if pair in self._padded else 0.0
+
+    def give_way(self, state: Running) -> None:
+        """Let what is soft give way in the coming substep as it does to the shell: two springs in series."""
+        model, data = state.model, state.data
+        frame = data.body(self._thing.name).xmat.reshape(3, 3)
+        pairs = {each.geom: p for p, each in self._padded.items()}
+        for k, (a, b) in enumerate(state.touching()):
+            other = a if b == self._number else b
+            if self._number not in (a, b) or other not in pairs:
+                continue
+            p, point = pairs[other], data.contact.pos[k]
+            padded = self._padded[p]
+            away = data.contact.frame[k, :3] if a == self._number else -data.contact.frame[k, :3]
+            here, there = (
+                state.velocity_at(model.body(model.geom_bodyid[geom]).name, point) for geom in (self._number, other)
+            )
+            approach = float((here - there) @ away)
+            # Contacts are those from before the substep.
+            dent = -float(model.pair_margin[p]) - padded.shift
+            deep = approach * float(model.opt.timestep) - float(data.contact.dist[k]) - dent
+            height = float(np.linalg.norm(self._semi_axes * (away @ frame)))
+            stiffness, padded.shift, padded.depth = SOFTEST, 0.0, 0.0
+            if deep > 0.0:
+                padded.depth, force, rising = padded.padding.gives(
+                    deep, self._contact.stiffness, self._radius(height), height, padded.padding.share(approach)
+                )
+                # No softer than from the surface on, or it would be felt from afar.
+                stiffness = max(rising, force / deep, SOFTEST)
+                padded.shift = max(deep - force / stiffness, 0.0)
+            padded.height, padded.out = height, -away
+            # Where margin and gap add up to less than 0, MuJoCo tells another distance.
+            model.pair_margin[p], model.pair_gap[p] = -dent - padded.shift, NEAR + padded.shift
+            stiffen(model, p, stiffness, DAMPING_RATIO)
+
+    def come_out(self, state: Running) -> None:
+        """Lift the shell out of what is soft, which springs back: what falls apart within it would not find the way."""
+        out = sum((each.depth * each.out for each in self._padded.values()), np.zeros(3))
+        if out.any():
+            state.data.joint(self._thing.name).qpos[:3] += out
+            state.renew_poses()
+
+    def shares(self, state: Running, contacts: IntArray) -> FloatArray:
+        """Return what part of the force of contacts, by number, would load the shell as much between plates [1].
+
+        What gives way presses on a patch. The shell is bent less under its middle; the rest of it is loaded as between
+        cushions.
+        """
+        soft = {each.geom: self._share(each) for each in self._padded.values() if each.depth > 0.0}
+        numbers: list[int] = contacts.tolist()
+        return np.array([min(soft.get(geom, 1.0) for geom in state.touching()[number]) for number in numbers])
+
+    def _share(self, padded: Padded) -> float:
+        radius = self._radius(padded.height)
+        length = math.sqrt(radius * self._thickness / math.sqrt(12.0 * (1.0 - self._poisson_ratio**2)))
+        plate = HERTZ * radius * self._breaking_force / self._contact.stiffness
+        patch = plate + spread_under(padded.padding, radius, padded.height, padded.depth)
+        bent = concentration(patch, length) / concentration(plate, length)
+        return bent + (1.0 - bent) * self._breaking_force / self._cushioned_force
+
+    def _radius(self, height: float) -> float:
+        """Return the mean radius of the shell where its middle is at a height over what it touches [m]."""
+        return float(np.prod(self._semi_axes)) / height**2
