@@ -18,7 +18,7 @@ from prolepsis.terms.errors import InvalidSimulationError
 
 GROUNDINGS = Path(prolepsis.fluents.__file__).parent
 PAGE = Path(__file__).parents[2] / "docs" / "grounding.md"
-WORDS = {"outcome", "by", "source"}
+WORDS = {"outcome", "by", "source", "edge", "result"}
 """Evidence that is a name."""
 
 

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from prolepsis.engine.granular_things import with_stuffs
-from prolepsis.geometry.shape import IntArray, quaternion, triple
+from prolepsis.geometry.rotations import rotate_back
+from prolepsis.geometry.shape import IntArray, Triple, quaternion, triple
 from prolepsis.log.things import FIXED, FREE, Mount, Thing, jointed
 from prolepsis.robots.model_shapes import shape_of_geoms
 from prolepsis.system.mujoco import mujoco
@@ -206,10 +207,19 @@ def _body_thing(model: Any, data: Any, body: int, names: list[str], driven: set[
         position=triple(data.xpos[body]),
         orientation=quaternion(data.xquat[body]),
         mass=float(model.body_subtreemass[body]),
+        centre=_centre(model, data, body) if rigid == body and not fixed else None,
         whole=None if root == body else names[int(model.body_parentid[body])],
         roles=frozenset(roles),
         mount=_mount(model, root, body, names, bool(fixed)),
     )
+
+
+def _centre(model: Any, data: Any, root: int) -> Triple:
+    """Return the centre of mass of a body and of all that is rigidly fixed to it, in its frame [m]."""
+    bodies = [body for body in range(root, model.nbody) if _rigid_root(model, body) == root]
+    weights = np.maximum(model.body_mass[bodies], 1e-12)
+    middle = weights @ data.xipos[bodies] / weights.sum()
+    return triple(rotate_back(data.xquat[root], middle - data.xpos[root]))
 
 
 def _mount(model: Any, root: int, body: int, names: list[str], fixed: bool) -> Mount:

@@ -67,6 +67,7 @@ RANGES: Mapping[str, Range] = {
     "opening_after": _positive("gap between two pads that do not pass through each other [m]"),
     "tilt": Range(least=0.0, greatest=math.pi, why="angle between two directions [rad]"),
     "tilt_before": Range(least=0.0, greatest=math.pi, why="angle between two directions [rad]"),
+    "angle": Range(least=0.0, greatest=math.pi, why="angle between two directions [rad]"),
     "bonds": _count("detached bonds"),
     "parts": _count("parts of a shell"),
     "equal_parts": _count("parts of a shell"),

@@ -210,6 +210,14 @@ def centroid(shape: Shape) -> FloatArray:
 
 
 @lru_cache(maxsize=4096)
+def centre_of_volume(shape: Shape) -> FloatArray:
+    """Return where the centre of mass of a shape of one material is, in its thing's frame [m], shape (3,)."""
+    solids = bounded(shape)
+    weights = np.array([max(matter_of(solid.geom), 1e-15) for solid in solids])
+    return weights @ np.array([solid.middle for solid in solids]) / weights.sum()
+
+
+@lru_cache(maxsize=4096)
 def radius(shape: Shape) -> float:
     """Return the greatest distance of a shape's surface from the origin of its frame [m]."""
     reach = [np.linalg.norm(np.maximum(np.abs(low), np.abs(high))) for low, high in map(Solid.bounds, bounded(shape))]

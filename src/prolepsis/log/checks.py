@@ -154,6 +154,8 @@ def _check_things(things: tuple[Thing, ...]) -> None:
     _refuse_circles({thing.name: thing.mount.to for thing in things}, "hangs on")
     for thing in things:
         _check_numbers(f"{thing.name}: pose", np.array((*thing.position, *thing.orientation), dtype=np.float64))
+        if thing.centre is not None:
+            _check_numbers(f"{thing.name}: centre", np.array(thing.centre, dtype=np.float64))
         _check_shape(thing.name, thing.shape)
 
 

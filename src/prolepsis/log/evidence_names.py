@@ -40,6 +40,7 @@ EVIDENCE_UNITS: Mapping[str, str] = {
     "opening_after": "m",
     "tilt": "rad",
     "tilt_before": "rad",
+    "angle": "rad",
     "bonds": "1",
     "parts": "1",
     "equal_parts": "1",
@@ -48,9 +49,11 @@ EVIDENCE_UNITS: Mapping[str, str] = {
     "tries": "1",
     "by": "",
     "between": "",
+    "edge": "",
     "ends": "",
     "outcome": "",
     "reason": "",
+    "result": "",
     "source": "",
 }
 """By name; the unit of a name or a text is empty. A level may be a name, too."""

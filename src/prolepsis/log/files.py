@@ -215,11 +215,15 @@ def _particles(head: _Particles | None, path: Path, thing_count: int, tick_count
 
 
 def _plain(value: Any) -> Any:
-    """Return a thing or what its shape consists of as JSON values, fields at their defaults included."""
+    """Return a thing or what its shape consists of as JSON values, fields at their defaults included.
+
+    What is not told of a thing's centre is left out.
+    """
     if type(value) in (float, str, int, bool):
         return value
     if isinstance(value, Thing | Mount | Shape | Geom | Hole | Surface):
-        return {each.name: _plain(getattr(value, each.name)) for each in fields(value)}
+        told = {each.name: getattr(value, each.name) for each in fields(value)}
+        return {name: _plain(each) for name, each in told.items() if name != "centre" or each is not None}
     if isinstance(value, frozenset):
         return sorted(cast("frozenset[str]", value))
     if isinstance(value, tuple):

@@ -51,6 +51,9 @@ class Thing:
     """Initial unit quaternion (w, x, y, z) in the world."""
     mass: float = 0.0
     """Mass with all parts [kg]; of a fixed thing it has no effect and may be 0."""
+    centre: Triple | None = None
+    """Centre of mass of the rigid body that it is, in the thing's frame [m], where that is told; of what is of one
+    material its shape tells it."""
     whole: str | None = None
     """The thing this is a part of, if any."""
     roles: frozenset[str] = frozenset()

@@ -89,6 +89,8 @@ fact_type(squeezing, 4, event).
 fact_type(supports, 2, fluent).
 fact_type(tilting, 2, event).
 fact_type(tilting, 3, event).
+fact_type(tipping, 1, event).
+fact_type(toppling, 1, event).
 fact_type(waiting, 1, event).
 fact_type(wet, 1, fluent).
 fact_type(wetWith, 2, fluent).
@@ -96,6 +98,7 @@ fact_type(wiping, 2, event).
 
 %   evidence_unit(Name, Unit): what evidence is called; the unit of a text is ''.
 
+evidence_unit(angle, rad).
 evidence_unit(away, m).
 evidence_unit(behind, rad).
 evidence_unit(between, '').
@@ -104,6 +107,7 @@ evidence_unit(by, '').
 evidence_unit(command, 'N').
 evidence_unit(depth, m).
 evidence_unit(distance, m).
+evidence_unit(edge, '').
 evidence_unit(ends, '').
 evidence_unit(equal_parts, '1').
 evidence_unit(fill, '1').
@@ -130,6 +134,7 @@ evidence_unit(peak_pad_force, 'N').
 evidence_unit(pieces, '1').
 evidence_unit(pieces_off, '1').
 evidence_unit(reason, '').
+evidence_unit(result, '').
 evidence_unit(second, '1').
 evidence_unit(share, '1').
 evidence_unit(slip, m).
