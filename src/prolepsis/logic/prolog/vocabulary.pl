@@ -441,6 +441,7 @@ allowed_value(dirty, false).
 allowed_value(dirty, true).
 allowed_value(lid, false).
 allowed_value(lid, true).
+allowed_value(outcome, crushed).
 allowed_value(outcome, done).
 allowed_value(outcome, dropped).
 allowed_value(outcome, in_collision).
