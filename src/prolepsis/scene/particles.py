@@ -44,8 +44,15 @@ class ParticleState:
     """Distance of neighbours at rest [m]."""
     behind: float = 0.0
     """Time since their last step [s]; the bodies are that much ahead."""
+    rider: npt.NDArray[np.int16] = field(init=False)
+    """Index of the soft thing that has ridden up on each, so that it lies as a film between that and what it is on; -1
+    for none, as at the start, shape (P,)."""
     columns: dict[str, FloatArray] = field(default_factory=dict[str, FloatArray])
     """What kinds of matter know of them beside, by name, each of shape (P,): temperature, share of milk ..."""
+
+    def __post_init__(self) -> None:
+        """Let nothing ride on any of them yet."""
+        self.rider = np.full(len(self.mass), -1, dtype=np.int16)
 
     def now(self) -> FloatArray:
         """Return where they are by now if they have gone on as in their last step, shape (P, 3)."""

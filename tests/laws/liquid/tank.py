@@ -197,6 +197,7 @@ class Tank:
         count = len(position)
         return Bodies(
             first=self._first,
+            thing=np.arange(count),
             rotation=np.ascontiguousarray(rotation.reshape(-1, 9)),
             position=np.ascontiguousarray(position),
             velocity=np.ascontiguousarray(velocity),

@@ -11,7 +11,7 @@ from tests.comparing import Compare
 from tests.laws.liquid.fitting import slope_of
 from tests.laws.liquid.tank import GRAVITY, GROUND, NONE, Tank, cup, filled_cup, lattice, still
 
-from prolepsis.geometry.shape import FloatArray
+from prolepsis.geometry.shape import FloatArray, Geom, Shape
 
 RADIUS, DEPTH, WALL = 0.035, 0.06, 0.003
 """The cup in which the swirl is [m]."""
@@ -138,3 +138,21 @@ def test_a_falling_blob_of_honey_hardly_changes_its_momentum() -> None:
     whole = float(np.abs(tank.velocity).sum())
     tank.run(0.3)
     assert tank.velocity.sum(axis=0) == pytest.approx(before, abs=1e-3 * whole)
+
+
+def test_what_something_slides_over_moves_half_as_fast() -> None:
+    """A film of honey between the ground and what rides on it has, in its middle, half of its speed (Couette)."""
+    spacing, speed = 4e-3, 0.1
+    size = (0.3, 0.3, 0.01)
+
+    def sliding(time: float) -> tuple[FloatArray, FloatArray]:
+        return np.array([speed * time, 0.0, size[2]]), np.eye(3)
+
+    layer = lattice((-0.02, -0.02, 0.0), (0.02, 0.02, spacing), spacing)
+    box = Shape(geoms=(Geom(type="box", size=size),))
+    tank = Tank([(GROUND, still), (box, sliding)], layer, spacing, density=1400.0, viscosity=10.0)
+    tank.particles.rider[:] = 1
+    tank.run(0.2)
+    assert tank.velocity[:, 0].mean() == pytest.approx(speed / 2, rel=0.1)
+    # Both hold it: it stays in one layer, within the sliding thing.
+    assert np.abs(tank.position[:, 2] - spacing / 2).max() < 0.1 * spacing

@@ -373,6 +373,7 @@ property(depth, m).
 property(dirty, '').
 property(drippingRetention, '1').
 property(drippingTime, s).
+property(edgeRadius, m).
 property(file, '').
 property(fill, '1').
 property(filmThickness, m).
@@ -401,11 +402,13 @@ property(pitch, rad).
 property(plateStiffness, 'N/m').
 property(poissonRatio, '1').
 property(poleStiffnessRatio, '1').
+property(poreSize, m).
 property(pressingTime, s).
 property(probeRadius, m).
 property(radius, m).
 property(recedingAngle, rad).
 property(recoveryTime, s).
+property(relativeMolecularMass, '1').
 property(restitution, '1').
 property(roll, rad).
 property(saturation, '1').

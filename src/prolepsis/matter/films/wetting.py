@@ -63,7 +63,8 @@ class Wetting(Controller):
             if index in self._wet and (not self._absorbent or index in self._absorbent):
                 continue
             near = touching(state, index, positions, TOUCH_REACH * particles.spacing)
-            near = near[unobstructed(state, index, positions[near])]
+            # What something rides on lies within that.
+            near = near[unobstructed(state, index, positions[near]) | (particles.rider[free[near]] >= 0)]
             if index in self._wet:
                 self._wipe(state, index, particles.spacing, positions[near])
             elif len(near) and float(particles.volume[free[near]].sum()) >= DROP:

@@ -39,6 +39,7 @@ class WallBodies:
         # A wall that gives way holds liquid by the whole's own shape.
         panels = {panel.name for panel in state.scene.each(Panel)}
         ids: list[int] = []
+        carriers: list[int] = []
         first = [0]
         parts: list[Solids] = []
         for body, carrier in enumerate([int(thing) for thing in state.body_thing]):
@@ -52,11 +53,13 @@ class WallBodies:
             if not made:
                 continue
             ids.append(body)
+            carriers.append(carrier)
             parts += made
             first.append(first[-1] + sum(len(solids.kind) for solids in made))
         self.solids = union_of(parts)
         self.ids = np.array(ids, dtype=np.int64)
         self._first = np.array(first, dtype=np.int64)
+        self._things = np.array(carriers, dtype=np.int64)
         self._position, self._rotation = self._poses(state)
         self._last = np.zeros((0, 6))
         self._weigh(state)
@@ -125,6 +128,7 @@ class WallBodies:
         """Return the bodies at given poses and velocities."""
         return Bodies(
             first=self._first,
+            thing=self._things,
             rotation=np.ascontiguousarray(rotation),
             position=np.ascontiguousarray(position),
             velocity=np.ascontiguousarray(velocity),

@@ -18,7 +18,10 @@ class Liquids(Kind):
 
     order = 10
     quantities = MappingProxyType(
-        dict.fromkeys(("viscosity", "surfaceTension", "contactAngle", "recedingAngle", "volume", "fill"), "Liquid")
+        dict.fromkeys(
+            ("viscosity", "surfaceTension", "contactAngle", "recedingAngle", "volume", "fill", "relativeMolecularMass"),
+            "Liquid",
+        )
     )
 
     def flowing(self, kb: KnowledgeBase) -> Sequence[str]:

@@ -119,13 +119,13 @@ class Liquid:
         ids = free[order]
         n = len(ids)
         x, v, mass = p.position.take(ids, axis=0), p.velocity.take(ids, axis=0), p.mass[ids]
-        tension = p.tension[ids]
+        tension, rider = p.tension[ids], p.rider[ids].astype(np.int64)
         strength = tension * spacing / tables.surface_energy
         wetting, viscosity = p.wetting[ids], p.viscosity[ids]
         density, steepness = np.empty(n), np.empty((n, 3))
         side = np.zeros((n, 4))
         contacts = self._contacts
-        find_walls(x, spacing, solids, bodies, tables.share, tables.share_slope, contacts, side)
+        find_walls(x, rider, spacing, solids, bodies, tables.share, tables.share_slope, contacts, side)
         clock.lap("walls")
         while not find_neighbours(x, rows, layer, spacing, side, pair_table(), self._neighbours, density, steepness):
             self._grow(2 * self._room)
@@ -180,7 +180,7 @@ class Liquid:
         add_pressure(contacts, impulse, push, held, edges, wetting, tables.pull, spacing, dt, x, reaction)
         self._pushed, self._dragged = about(bodies.centre, reaction) / dt, dragged
         x += dt * v
-        keep_outside(x, v, contacts, spacing, solids, after, dt)
+        keep_outside(x, rider, v, contacts, spacing, solids, after, dt)
         put(p.position, ids, x)
         put(p.velocity, ids, v)
         self._last = dt

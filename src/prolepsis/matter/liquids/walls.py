@@ -24,6 +24,8 @@ class Bodies(NamedTuple):
 
     first: IntArray
     """First solid of each body; one more for the end, shape (B + 1,)."""
+    thing: IntArray
+    """Index of the thing that each is, shape (B,)."""
     rotation: FloatArray
     """Rows of the rotation to the world, shape (B, 9)."""
     position: FloatArray
@@ -115,6 +117,7 @@ def _world_box(
 @njit(cache=True)
 def find_walls(
     position: FloatArray,
+    rider: IntArray,
     spacing: float,
     solids: Solids,
     bodies: Bodies,
@@ -123,7 +126,10 @@ def find_walls(
     contacts: WallContacts,
     side: FloatArray,
 ) -> None:
-    """Fill in what each particle sees of the walls, and in ``side`` the nearest face (normal, distance in spacings)."""
+    """Fill in what each particle sees of the walls, and in ``side`` the nearest face (normal, distance in spacings).
+
+    What rides on a particle, the thing that ``rider`` tells, lies on it as a face against the wall that it is on.
+    """
     n, body_count = len(position), len(bodies.first) - 1
     reach = SUPPORT * spacing
     local, which = np.empty((n, 3)), np.empty(n, dtype=np.int64)
@@ -144,6 +150,8 @@ def find_walls(
             hx, hy, hz = half[0], half[1], half[2]
             near = 0
             for i in range(n):
+                if rider[i] == bodies.thing[b]:
+                    continue
                 if abs(position[i, 2] - mz) > hz or abs(position[i, 0] - mx) > hx or abs(position[i, 1] - my) > hy:
                     continue
                 dx, dy, dz = position[i, 0] - ox, position[i, 1] - oy, position[i, 2] - oz
@@ -181,6 +189,8 @@ def find_walls(
                     contacts.velocity[i, slot, 2] = uz + wx * dy - wy * dx
                     contacts.seen[i] = min(contacts.seen[i] + 1, SEEN)
     for i in range(n):
+        if rider[i] >= 0:
+            _lay_rider(position, i, rider[i], spacing, bodies, contacts)
         count = contacts.seen[i]
         if count == 0:
             continue
@@ -209,8 +219,32 @@ def find_walls(
 
 
 @njit(cache=True)
+def _lay_rider(
+    position: FloatArray, i: int, thing: int, spacing: float, bodies: Bodies, contacts: WallContacts
+) -> None:
+    """Let a particle see what rides on it, where it rests between that and the nearest other wall."""
+    slot = contacts.seen[i]
+    if slot == 0 or slot == SEEN:
+        return
+    for b in range(len(bodies.thing)):
+        if bodies.thing[b] != thing:
+            continue
+        arm, spin = position[i] - bodies.position[b], bodies.spin[b]
+        contacts.distance[i, slot] = REST_DISTANCE * spacing
+        contacts.body[i, slot] = b
+        for c in range(3):
+            contacts.normal[i, slot, c] = -contacts.normal[i, 0, c]
+        contacts.velocity[i, slot, 0] = bodies.velocity[b, 0] + spin[1] * arm[2] - spin[2] * arm[1]
+        contacts.velocity[i, slot, 1] = bodies.velocity[b, 1] + spin[2] * arm[0] - spin[0] * arm[2]
+        contacts.velocity[i, slot, 2] = bodies.velocity[b, 2] + spin[0] * arm[1] - spin[1] * arm[0]
+        contacts.seen[i] = slot + 1
+        return
+
+
+@njit(cache=True)
 def keep_outside(
     position: FloatArray,
+    rider: IntArray,
     velocity: FloatArray,
     before: WallContacts,
     spacing: float,
@@ -222,6 +256,7 @@ def keep_outside(
 
     Args:
         position: After the step [m], shape (n, 3).
+        rider: What rides on each, in which it may be, shape (n,).
         velocity: [m/s], shape (n, 3).
         before: What they saw before the step.
         spacing: [m].
@@ -235,7 +270,7 @@ def keep_outside(
     begin = np.zeros(SEEN * body_count + 1, dtype=np.int64)
     for i in range(len(position)):
         for f in range(before.seen[i]):
-            if _ahead(before, i, f, velocity, dt) <= 1.2 * least:
+            if bodies.thing[before.body[i, f]] != rider[i] and _ahead(before, i, f, velocity, dt) <= 1.2 * least:
                 begin[f * body_count + before.body[i, f] + 1] += 1
     # Sums of numpy's would load numba's linear algebra, and with it scipy's, in each process.
     for k in range(1, len(begin)):
@@ -245,7 +280,7 @@ def keep_outside(
     for i in range(len(position)):
         for f in range(before.seen[i]):
             distance = _ahead(before, i, f, velocity, dt)
-            if distance <= 1.2 * least:
+            if bodies.thing[before.body[i, f]] != rider[i] and distance <= 1.2 * least:
                 slot = filled[f * body_count + before.body[i, f]]
                 which[slot], ahead[slot] = i, distance
                 filled[f * body_count + before.body[i, f]] += 1

@@ -14,6 +14,7 @@ from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.log import FREE
 from prolepsis.log.things import Thing
 from prolepsis.matter.sponges.carried_mass import CarriedMass
+from prolepsis.matter.sponges.riding import NONE, Riding
 from prolepsis.matter.sponges.sponge_law import SpongeLaw
 from prolepsis.matter.sponges.sponge_surface import SpongeSurface, nearest_of
 from prolepsis.scene.kind import Controller
@@ -59,6 +60,7 @@ class Absorbing(Controller):
         held = self.held(particles)
         particles.home[held] = self._homes[held]
         self._body = CarriedMass(thing.name, thing.mass)
+        self._riding = Riding(state.scene.things, self.index, self.surface)
         self._due = 0.0
         self._wanted = 0.0
         self._ticks = 0
@@ -87,6 +89,7 @@ class Absorbing(Controller):
         dripping = max(held - self.law.retained, 0.0)
         pressed = max(held - self.law.capacity_under(self.pressure), 0.0)
         changed = self._give_off(state, particles, dripping, pressed, dt) if dripping or pressed else 0
+        changed += self._take(state, particles, self._riding.move(state, particles, dt))
         if not pressed:
             changed += self._take_up(state, particles, held, dt)
         if changed:
@@ -115,7 +118,7 @@ class Absorbing(Controller):
         """Take up free particles that touch it, and return how many."""
         law, spacing = self.law, particles.spacing
         origin, rotation = self._frame(state)
-        free = np.flatnonzero(particles.free)
+        free = np.flatnonzero(particles.free & (particles.rider == NONE))
         local = (particles.position[free] - origin) @ rotation
         touching = self.surface.touched_by(local, TOUCH_REACH * spacing)
         free, local = free[touching], local[touching]
@@ -132,13 +135,17 @@ class Absorbing(Controller):
         speed = law.front_speed(held, particles.viscosity[free], spacing)
         self._wanted = min(self._wanted + float((speed * dt / spacing).sum()), float(len(free)))
         nearest = np.argsort(self.surface.distance(local), kind="stable")[: int(self._wanted)]
-        taken = free[nearest]
-        room = law.capacity_under(self.pressure) - held
+        taken = self._take(state, particles, free[nearest])
+        self._wanted -= taken
+        return taken
+
+    def _take(self, state: Running, particles: ParticleState, taken: IntArray) -> int:
+        """Let particles become a part of it as long as it has room, and return how many."""
+        room = self.law.capacity_under(self.pressure) - float(particles.mass[self.held(particles)].sum())
         taken = taken[np.cumsum(particles.mass[taken]) <= room]
-        self._wanted -= len(taken)
         if len(taken):
             self._body.collide(state, particles.position[taken], particles.velocity[taken], particles.mass[taken])
-            particles.holder[taken] = self.index
+            particles.holder[taken], particles.rider[taken] = self.index, NONE
             particles.home[taken] = self._homes[taken]
         return len(taken)
 

@@ -28,7 +28,9 @@ class Sponges(Kind):
 
     order = 40
     roles = frozenset({"Absorbent"})
-    quantities = MappingProxyType(dict.fromkeys({*NEEDED, "saturation"} - {"youngsModulus"}, "Absorbent"))
+    quantities = MappingProxyType(
+        dict.fromkeys({*NEEDED, "saturation", "poreSize", "edgeRadius"} - {"youngsModulus"}, "Absorbent")
+    )
 
     def refuse(self, kb: KnowledgeBase, kinds: Sequence[Kind]) -> None:
         """Refuse what is told to be soaked but not with what, and what absorbs but not how, or never moves."""
