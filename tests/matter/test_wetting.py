@@ -125,3 +125,10 @@ def test_a_part_of_a_shell_is_wet_where_any_of_its_pieces_is() -> None:
     carried = [k for k in films.things["thing"].tolist() if log.carrier[-1, k] == first]
     assert carried, "some piece of the largest part is wet"
     assert recognize(log).ask("holds(wet('eggshell1/piece0'), T), ongoing(wet('eggshell1/piece0'))")
+
+
+def test_facts_tell_how_large_the_film_is() -> None:
+    timeline = recognize(run(PUDDLE, "wait(0.5)", duration=0.5, particles=60))
+    (fact,) = timeline.select(type="wet")
+    # Half a millilitre in a layer of particles of 8 mm^3, which spreads a little.
+    assert 1.5e-4 < float(fact.evidence["area_at_end"]) <= float(fact.evidence["area"]) < 6e-4

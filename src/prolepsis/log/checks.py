@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from prolepsis.geometry.shape import GEOM_TYPES, Shape
-from prolepsis.log.happenings import DETACHMENT, FILM, Happenings
+from prolepsis.log.happenings import DETACHMENT, FILM, FILM_AREA, Happenings
 from prolepsis.log.log import Log
 from prolepsis.log.things import Thing
 from prolepsis.terms.errors import brief, brief_list
@@ -136,7 +136,7 @@ def _check_happenings(type: str, happenings: Happenings, ticks: int, count: int)
         _check_range(f"{type}s: {name}", column, 0, count)
     for name, column in happenings.numbers.items():
         _check_numbers(f"{type}s: {name}", column)
-    known = {each.name: each for each in (DETACHMENT, FILM)}.get(type)
+    known = {each.name: each for each in (DETACHMENT, FILM, FILM_AREA)}.get(type)
     things, numbers = (known.things, known.numbers) if known is not None else ((), ())
     if known is not None and ({*happenings.things} != {*things} or {*happenings.numbers} != {*numbers}):
         needed = ", ".join((*things, *numbers))

@@ -19,6 +19,8 @@ EVIDENCE_UNITS: Mapping[str, str] = {
     "largest": "1",
     "second": "1",
     "depth": "m",
+    "area": "m2",
+    "area_at_end": "m2",
     "volume": "m3",
     "mass": "kg",
     "force": "N",

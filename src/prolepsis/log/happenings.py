@@ -28,6 +28,9 @@ DETACHMENT = HappeningType(name="detachment", things=("thing", "a", "b"), number
 FILM = HappeningType(name="film", things=("thing", "stuff"), numbers=("wet",))
 """The surface of a thing becomes wet with a stuff (1), or dry again (0), which names the thing twice."""
 
+FILM_AREA = HappeningType(name="film_area", things=("thing",), numbers=("area",))
+"""The film on the surface of a thing has another area from now on [m^2]."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Happening:
@@ -49,6 +52,11 @@ def detachment(thing: int, a: int, b: int, force: float) -> Happening:
 def film(thing: int, stuff: int, *, wet: bool) -> Happening:
     """Return that the surface of a thing has become wet with a stuff, or dry again."""
     return Happening(type=FILM.name, things={"thing": thing, "stuff": stuff}, numbers={"wet": float(wet)})
+
+
+def film_area(thing: int, area: float) -> Happening:
+    """Return that the film on the surface of a thing has another area [m^2]."""
+    return Happening(type=FILM_AREA.name, things={"thing": thing}, numbers={"area": area})
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

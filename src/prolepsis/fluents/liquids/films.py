@@ -9,8 +9,8 @@ import numpy as np
 from prolepsis.fluents.intervals import runs
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import fluent
-from prolepsis.geometry.shape import BoolArray
-from prolepsis.log.happenings import FILM
+from prolepsis.geometry.shape import BoolArray, FloatArray
+from prolepsis.log.happenings import FILM, FILM_AREA
 from prolepsis.log.timeline import Evidence, Fact
 
 
@@ -38,8 +38,11 @@ def _filmed(observation: Observation, attribute: str) -> Iterator[Fact]:
         known = unit in told or not told.isdisjoint(observation.bodies(unit))
         mask = (mask | known) & observation.exists(unit)
         evidence: Evidence = {"source": "told"} if known else {"by": " and ".join(dict.fromkeys(stuffs))}
-        for stretch in runs(mask):
-            yield observation.fact("fluent", attribute, (observation.unit_names[unit],), stretch, evidence)
+        area = observation.of(areas_of_units).get(unit)
+        for start, end in runs(mask):
+            if area is not None and area[start:end].any():
+                evidence = {**evidence, "area": float(area[start:end].max()), "area_at_end": float(area[end - 1])}
+            yield observation.fact("fluent", attribute, (observation.unit_names[unit],), (start, end), evidence)
 
 
 def films_of_units(observation: Observation) -> dict[int, tuple[BoolArray, tuple[str, ...]]]:
@@ -51,6 +54,25 @@ def films_of_units(observation: Observation) -> dict[int, tuple[BoolArray, tuple
             unit = int(observation.unit[body])
             known, others = found.get(unit, (np.zeros(observation.tick_count, dtype=np.bool_), ()))
             found[unit] = known | (mask & (carrier == body)), (*others, *stuffs)
+    return found
+
+
+def areas_of_units(observation: Observation) -> dict[int, FloatArray]:
+    """Return the area of the films on what each unit's body carries [m^2], shape (T,), where it is known."""
+    found: dict[int, FloatArray] = {}
+    happenings = observation.log.happenings.get(FILM_AREA.name)
+    films = observation.of(film_masks)
+    if happenings is None:
+        return found
+    for thing in sorted({*happenings.things["thing"].tolist()} & films.keys()):
+        area = np.zeros(observation.tick_count)
+        for row in np.flatnonzero(happenings.things["thing"] == thing).tolist():
+            area[int(happenings.tick[row]) :] = happenings.numbers["area"][row]
+        area *= films[thing][0]
+        carrier = observation.log.carrier[:, thing]
+        for body in sorted({*carrier[area > 0].tolist()} - {-1}):
+            unit = int(observation.unit[body])
+            found[unit] = found.get(unit, np.zeros(observation.tick_count)) + area * (carrier == body)
     return found
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from prolepsis.log.happenings import FILM
+from prolepsis.log.happenings import FILM, FILM_AREA
 from prolepsis.scene.kind import Channel, Controller, Kind
 from prolepsis.scene.parts import Kernel, Shard
 from prolepsis.scene.running import Running
@@ -18,7 +18,7 @@ class Films(Kind):
         Channel(name="wet", doc="1 while its surface is wet, else 0", begins="WetThing"),
         Channel(name="dirty", doc="1 while stuff sticks to it, else 0", begins="DirtyThing"),
     )
-    happenings = (FILM,)
+    happenings = (FILM, FILM_AREA)
 
     def start(self, state: Running) -> Sequence[Controller]:
         """Return its controllers in one run."""

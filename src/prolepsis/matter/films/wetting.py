@@ -12,7 +12,7 @@ import numpy as np
 
 from prolepsis.geometry.rotations import matrix
 from prolepsis.geometry.shape import FloatArray, IntArray
-from prolepsis.log.happenings import film
+from prolepsis.log.happenings import film, film_area
 from prolepsis.log.things import friction_of
 from prolepsis.scene.kind import Controller
 from prolepsis.scene.nearby import distance_to, solids_of, touching, unobstructed
@@ -20,6 +20,8 @@ from prolepsis.scene.running import Running
 
 LOOK_TICKS = 50
 """Surfaces are looked at every so many ticks, and in the first one."""
+SELDOM = 4
+"""Of surfaces that nothing can dry, so many looks are left out but for one: their films only grow."""
 TOUCH_REACH = 0.75
 """Distance of a particle's centre from a surface that it wets [spacings]; at rest on it, it is a half."""
 DROP = 5.0e-8
@@ -42,6 +44,8 @@ class Wetting(Controller):
         self._wet: dict[int, IntArray] = {}
         """Where the film of each thing is: cells a spacing wide in its frame, as one number each."""
         self._most: dict[int, int] = {}
+        self._told: dict[int, int] = {}
+        """How many cells of each film the log was told of."""
         self._ticks = 0
 
     def end_tick(self, state: Running) -> None:
@@ -59,29 +63,32 @@ class Wetting(Controller):
                 self._wetten(state, index, int(held[0]), np.zeros(0, dtype=np.int64))
         positions = particles.position[free]
         for index in solids_of(state):
-            # What nothing can dry need not be looked at again.
-            if index in self._wet and (not self._absorbent or index in self._absorbent):
+            keeps = not self._absorbent or index in self._absorbent
+            if index in self._wet and keeps and self._ticks % (SELDOM * LOOK_TICKS):
                 continue
             near = touching(state, index, positions, TOUCH_REACH * particles.spacing)
             # What something rides on lies within that.
             near = near[unobstructed(state, index, positions[near]) | (particles.rider[free[near]] >= 0)]
             if index in self._wet:
-                self._wipe(state, index, particles.spacing, positions[near])
+                self._wipe(state, index, particles.spacing, positions[near], keeps)
             elif len(near) and float(particles.volume[free[near]].sum()) >= DROP:
                 cells = self._cells(state, index, particles.spacing, positions[near])
                 self._wetten(state, index, int(particles.stuff[free[near[0]]]), cells)
+            if index in self._wet and len(self._wet[index]) != self._told.get(index, 0):
+                self._told[index] = len(self._wet[index])
+                state.report(film_area(index, self._told[index] * particles.spacing**2))
 
-    def _wipe(self, state: Running, index: int, spacing: float, positions: FloatArray) -> None:
-        """Take away the film over which something absorbent is now, unless liquid is there still."""
+    def _wipe(self, state: Running, index: int, spacing: float, positions: FloatArray, keeps: bool) -> None:
+        """Let the film grow to where liquid is, and take it away where something absorbent is now and no liquid."""
         cells = self._wet[index]
         world = self._centres(state, index, spacing, cells)
         left = np.ones(len(cells), dtype=np.bool_)
-        for absorbent in self._absorbent:
+        for absorbent in () if keeps else self._absorbent:
             # Where in its cell the liquid was is not known.
             left &= distance_to(state, absorbent, world) > (TOUCH_REACH + 0.5) * spacing
         self._wet[index] = np.union1d(cells[left], self._cells(state, index, spacing, positions))
         self._most[index] = max(self._most[index], len(self._wet[index]))
-        if not len(positions) and len(self._wet[index]) <= NOTICEABLE * self._most[index]:
+        if not keeps and not len(positions) and len(self._wet[index]) <= NOTICEABLE * self._most[index]:
             self._dry(state, index)
 
     def _cells(self, state: Running, index: int, spacing: float, positions: FloatArray) -> IntArray:
@@ -108,6 +115,7 @@ class Wetting(Controller):
 
     def _dry(self, state: Running, index: int) -> None:
         del self._wet[index], self._most[index]
+        self._told.pop(index, None)
         surface = self._things[index]
         state.report(film(index, index, wet=False))
         if not surface.quantities.get("wet"):
