@@ -18,7 +18,9 @@ def energies(world: World, log: Log) -> FloatArray:
     body = _bodies(world, log)
     particles = log.particles
     if len(particles.tick):
-        body = body[particles.tick[:-1]] + _liquids(log)
+        # A liquid's motion is known from where it is every so many ticks, so that of bodies is taken over the same.
+        ticks = np.concatenate(([0.0], np.cumsum(body)))[np.minimum(particles.tick, len(body))]
+        body = np.diff(ticks) / np.diff(np.minimum(particles.tick, len(body))) + _liquids(log)
     span = max(1, round(WINDOW / (log.dt if not len(particles.tick) else log.dt * np.diff(particles.tick)[0])))
     return np.array([body[k : k + span].max() for k in range(0, len(body) - span + 1, span)])
 

@@ -12,17 +12,12 @@ from tests.laws import energy_scenes, rest_scenes
 from tests.laws.verdicts import gained, moved
 
 PUSHED = "liquid: particles that are put round a thing push it before they have settled"
-THROWN = "liquid: coarse particles throw out what is lighter than a few of them"
 SPONGE = "liquid: it throws a light sponge back, if faster than it came the run is invalid"
-ENTERS = "liquid: it gains half of the energy that a light thing brings, as this goes in"
 SOAKS = "liquid: what a sponge takes up is put anywhere in it, and the energy of wetting is not counted"
 MOVES = {
     "a glass ball on the bottom of a bowl of water": PUSHED,
 }
 GAINS = {
-    "a wooden cube into water": ENTERS,
-    "a wooden ball into a bowl of water": ENTERS,
-    "a block of 1 g into water": THROWN,
     "a dry sponge into water": SPONGE,
     "a dry sponge from 5 cm into water": SPONGE,
     "a sponge into a bowl of water": SPONGE,

@@ -8,13 +8,14 @@ from prolepsis.geometry.faces import Solids
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.geometry.signed_distance import shifted, solids_as_arrays, union_of
 from prolepsis.matter.liquids.walls import Bodies
+from prolepsis.matter.liquids.yielding import about, response
 from prolepsis.scene.parts import Panel
 from prolepsis.scene.running import Running
 
 FREE_FREEDOMS = 6
 """Degrees of freedom of a body that moves freely."""
 GREATEST_CHANGE = 20.0
-"""Acceleration with which a body may be taken to go on [m/s^2]."""
+"""Acceleration by others than the liquid with which a body may be taken to go on [m/s^2]."""
 
 
 class WallBodies:
@@ -89,10 +90,19 @@ class WallBodies:
         rotation: FloatArray = state.data.xmat[self.ids].copy()
         return position, rotation
 
-    def moved(self, state: Running, dt: float) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    def moved(
+        self, state: Running, dt: float, pushed: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Return position, rotation, velocity and spin in the ``dt`` [s] since the last step began, and begin the next.
 
-        The position and rotation are those when it began.
+        The position and rotation are those when it began. A body that yields has the velocity that it would have after
+        as long again if the liquid did not push it: what the liquid does acts then.
+
+        Args:
+            state: The run.
+            dt: [s].
+            pushed: What the liquid did to each body meanwhile: impulse [N s] and moment about the world's origin
+                [N m s], shape (B, 6).
         """
         position, rotation = self._poses(state)
         old_position, old_rotation = self._position, self._rotation
@@ -105,24 +115,34 @@ class WallBodies:
             [change[:, 2, 1] - change[:, 1, 2], change[:, 0, 2] - change[:, 2, 0], change[:, 1, 0] - change[:, 0, 1]],
             axis=1,
         )
-        spin = skew / (2 * dt)
-        return old_position, old_rotation, *self._carried_on(velocity, spin, dt)
+        going = np.concatenate([velocity, skew / (2 * dt)], axis=1)
+        self._carry_on(state, going, dt, pushed)
+        return old_position, old_rotation, going[:, :3], going[:, 3:]
 
-    def _carried_on(self, velocity: FloatArray, spin: FloatArray, dt: float) -> tuple[FloatArray, FloatArray]:
-        """Return the velocities with which bodies that yield go on if the liquid pushes them as before.
+    def _carry_on(self, state: Running, going: FloatArray, dt: float, pushed: FloatArray) -> None:
+        """Write the velocities with which bodies that yield go on if the liquid does not push them.
 
-        The liquid then changes the velocity that they have next, as it will be, and not the one that they had.
+        What others do to them, as gravity and contacts, goes on as it was, but for blows.
         """
-        now = np.concatenate([velocity, spin], axis=1)
-        change = np.zeros_like(now)
+        yields = np.flatnonzero(self.yields)
+        now = np.zeros_like(going)
+        for k in yields.tolist():
+            first = state.model.body_dofadr[self.ids[k]]
+            now[k, :3] = state.data.qvel[first : first + 3]
+            now[k, 3:] = self._rotation[k].reshape(3, 3) @ state.data.qvel[first + 3 : first + 6]
+        change = np.zeros_like(going)
         if len(self._last) == len(now):
-            change = (now - self._last) * self.yields[:, None]
-            # A landing is no acceleration that goes on.
+            change = now - self._last - self.answer(pushed)
             size = np.linalg.norm(change[:, :3], axis=1, keepdims=True)
             change *= np.minimum(1.0, GREATEST_CHANGE * dt / np.maximum(size, 1e-12))
         self._last = now
-        now = now + change
-        return now[:, :3], now[:, 3:]
+        going[yields] = (now + change)[yields]
+
+    def answer(self, impulse: FloatArray) -> FloatArray:
+        """Return by how much impulses and moments about the world's origin change velocity and spin, shape (B, 6)."""
+        made = response(self._mobility, about(self._centre, impulse))
+        made[:, :3] -= np.cross(made[:, 3:], self._centre - self._position)
+        return made
 
     def at(self, position: FloatArray, rotation: FloatArray, velocity: FloatArray, spin: FloatArray) -> Bodies:
         """Return the bodies at given poses and velocities."""

@@ -26,6 +26,8 @@ FAR = 2.0
 LIGHTEST = 50.0
 """Pieces of a shell that weigh less than so many particles are no walls: they are thinner than a particle, and would be
 thrown about by forces that so few cannot resolve."""
+GREATEST_GROWTH = 1.5
+"""Factor by which a step may be longer than the last one, in which what that gave to the bodies acts [1]."""
 SETTLING_TIME = 0.24
 """A liquid that was filled in on a lattice settles for this long before the run begins [s]."""
 SETTLING_VISCOSITY = 2.0
@@ -45,6 +47,7 @@ class Flowing(Controller):
         self._far = FAR + float(np.linalg.norm(positions - self._centre, axis=1).max(initial=0.0))
         self._walls = WallBodies(state, LIGHTEST * float(self.liquid.particles.mass.mean()))
         self._force = np.zeros((len(self._walls.ids), 6))
+        self._owed = np.zeros_like(self._force)
         self._elapsed = 0
         self._ticks = 1
         self._resting = False
@@ -75,23 +78,25 @@ class Flowing(Controller):
         if not particles.free.any():
             self._rest(state)
             return
+        renewed = self._take_walls(state)
+        if self._resting or renewed:
+            self._force = np.zeros((len(self._walls.ids), 6))
+            self._owed = np.zeros_like(self._force)
         if self._resting:
             # Where the bodies are now, the first step begins.
-            self._take_walls(state)
-            self._walls.moved(state, TICK)
-            self._force = np.zeros((len(self._walls.ids), 6))
-            self.liquid.forget_pushes()
+            self._walls.moved(state, TICK, self._owed)
             self._resting = False
         self._elapsed += 1
-        if self._take_walls(state):
-            self.liquid.forget_pushes()
-            self._force = np.zeros((len(self._walls.ids), 6))
-        elif self._elapsed < self._ticks and self._walls.travel(state) < LONGEST_TRAVEL * particles.spacing:
+        far = LONGEST_TRAVEL * particles.spacing
+        travel = self._walls.travel(state)
+        if not renewed and self._elapsed < self._ticks and travel < far:
             particles.behind = self._elapsed * TICK
             return
         self._step(state, self._elapsed * TICK)
+        longest = min(self.liquid.next_step() / TICK, GREATEST_GROWTH * self._elapsed + 0.5)
+        longest = min(longest, self._elapsed * far / max(travel, 1e-12))
         self._elapsed, particles.behind = 0, 0.0
-        self._ticks = max(1, int(self.liquid.next_step() / TICK + 1e-9))
+        self._ticks = max(1, int(longest + 1e-9))
         self._push(state)
         self._park(state)
 
@@ -111,23 +116,32 @@ class Flowing(Controller):
             self.liquid.particles.behind = 0.0
 
     def _step(self, state: Running, dt: float) -> None:
-        position, rotation, velocity, spin = self._walls.moved(state, dt)
-        end = self._walls.at(*self._walls.now(), velocity, spin)
+        ids, pushed = self._walls.ids, self._force * dt
+        self._owed -= pushed
+        position, rotation, velocity, spin = self._walls.moved(state, dt, pushed)
+        ended = self._walls.now()
+        going = np.concatenate([velocity, spin], axis=1) + self._walls.answer(self._owed)
         count = max(1, math.ceil(dt / self.liquid.next_step() - 1e-9))
         impulse = np.zeros_like(self._force)
         for k in range(count):
+            velocity, spin = going[:, :3].copy(), going[:, 3:].copy()
             begun = self._walls.at(position + velocity * (dt * k / count), rotation, velocity, spin)
-            impulse += self.liquid.step(dt / count, self._walls.solids, begun, end if k == count - 1 else begun)
-        force = impulse / dt
+            after = self._walls.at(*ended, velocity, spin) if k == count - 1 else begun
+            given = self.liquid.step(dt / count, self._walls.solids, begun, after)
+            going += self._walls.answer(given)
+            impulse += given
         # One that is held does not yield; if it is light against the liquid it would shake under a force that
         # answers its own last motion.
-        mass = state.model.body_mass[self._walls.ids]
+        mass = state.model.body_mass[ids]
         free = self.liquid.particles.mass[self.liquid.particles.holder == FREE].sum()
-        share = np.where(self._walls.yields, 1.0, mass / np.maximum(mass + free, 1e-12))[:, None]
-        self._force += share * (force - self._force)
+        share = (mass / np.maximum(mass + free, 1e-12))[:, None]
+        self._force += share * (impulse / dt - self._force)
+        self._owed = np.where(self._walls.yields[:, None], self._owed + impulse, 0.0)
 
     def _push(self, state: Running) -> None:
+        """Push the bodies until the next step; by then one that yields is given all that it is owed."""
         ids = self._walls.ids
+        self._force = np.where(self._walls.yields[:, None], self._owed / (self._ticks * TICK), self._force)
         state.push(self, ids, about(state.data.xipos[ids], self._force), passes_on=True)
 
     def _park(self, state: Running) -> None:

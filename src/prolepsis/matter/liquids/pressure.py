@@ -4,6 +4,9 @@ The kernel sum of a particle may not rise above one. Each particle has a pressur
 along the gradient of its own sum, on its neighbours, and on the walls it sees; Gauss-Seidel sweeps, up and down in
 turn, find those that are needed. The impulses of the last step are the first guess. Pair impulses are equal and
 opposite, so momentum is kept exactly.
+
+What is too dense already is moved apart without any velocity, or it would get energy from nothing, and with it what
+floats in it.
 """
 
 from __future__ import annotations
@@ -17,7 +20,7 @@ from prolepsis.matter.liquids.yielding import along, give_way, softness
 from prolepsis.system.kernels import njit
 
 CORRECTION = 0.2
-"""Share of a compression that one step takes back [1]."""
+"""Share of a compression that one step takes back, and of a gap under pressure that it closes [1]."""
 NEGLIGIBLE = 1.0
 """Compression of one particle that is left alone [tolerances]."""
 GREATEST_CORRECTION = 0.02
@@ -37,6 +40,7 @@ def solve_pressure(
     pressed: FloatArray,
     mobility: FloatArray,
     yielded: FloatArray,
+    correcting: bool,
     spacing: float,
     dt: float,
     tolerance: float,
@@ -44,6 +48,9 @@ def solve_pressure(
     most_sweeps: int,
 ) -> tuple[int, float]:
     """Change the velocities such that nothing is compressed, and return the sweeps and the remaining compression.
+
+    What is compressed already may stay so: to press it apart would give it energy. If ``correcting``, the velocities
+    are those with which the particles move on, and do not keep, and take some of it back; no body yields to that.
 
     Args:
         velocity: [m/s], shape (n, 3).
@@ -57,6 +64,7 @@ def solve_pressure(
         pressed: Their sum for each particle, out [N s], shape (n, 3).
         mobility: Of the bodies, shape (B, 10).
         yielded: By how much their velocity and spin differ from the walls', changed, shape (B, 6).
+        correcting: Whether what is compressed is taken apart.
         spacing: [m].
         dt: [s].
         tolerance: Mean compression per step at which the sweeps end [1].
@@ -67,7 +75,7 @@ def solve_pressure(
     # Arrays of their own: to fetch one from a tuple, or a row as a view, costs as much as a neighbour.
     start, end, other, gradient, _, _ = neighbours
     seen, bodies, distance, normal, wall, arm, _, slope, _ = contacts
-    least = REST_DISTANCE * spacing
+    least, taken_back = REST_DISTANCE * spacing, CORRECTION if correcting else 0.0
     # Own part of each row: liquid alone, for what the neighbours' velocities are compared with.
     own, wanted, inverse = np.empty((n, 3)), np.empty(n), np.empty(n)
     for i in range(n):
@@ -76,7 +84,7 @@ def solve_pressure(
         diagonal = (sx * sx + sy * sy + sz * sz) * inverse_mass[i]
         for f in range(seen[i]):
             nx, ny, nz, k = normal[i, f, 0], normal[i, f, 1], normal[i, f, 2], slope[i, f]
-            if mobility[bodies[i, f], 0] > 0.0:
+            if not correcting and mobility[bodies[i, f], 0] > 0.0:
                 diagonal += k * k * softness(mobility[bodies[i, f]], arm[i, f], normal[i, f])
             sx -= k * nx
             sy -= k * ny
@@ -87,9 +95,11 @@ def solve_pressure(
             diagonal += (gx * gx + gy * gy + gz * gz) * inverse_mass[other[p]]
         inverse[i] = 1.0 / max(diagonal, 1e-300)
         excess = density[i] - 1.0
-        # A gap may close at once; in a liquid under pressure it does so as gently as a compression opens.
-        share = CORRECTION if excess > 0.0 or kappa > 0.0 else 1.0
-        wanted[i] = min(share * excess, GREATEST_CORRECTION) / dt
+        if excess > 0.0:
+            wanted[i] = min(taken_back * excess, GREATEST_CORRECTION) / dt
+        else:
+            # A gap may close at once; in a liquid under pressure it does so gently.
+            wanted[i] = (CORRECTION if kappa > 0.0 else 1.0) * excess / dt
     negligible = NEGLIGIBLE * tolerance / dt
     sweep, error = 0, 0.0
     while sweep < most_sweeps:
@@ -114,6 +124,9 @@ def solve_pressure(
                 residual += slope[i, f] * closing
             if residual > 0.0:
                 error += residual
+            elif impulse[i] > 0.0:
+                # What presses without need would throw the liquid apart.
+                error -= max(residual, -impulse[i] / inverse[i])
             change = max(residual * inverse[i], -impulse[i])
             # Rows that are good enough need not disturb their neighbours.
             if abs(residual) > negligible and change != 0.0:
@@ -130,7 +143,7 @@ def solve_pressure(
                     velocity[j, 2] += theirs * gradient[p, 2]
                 for f in range(seen[i]):
                     body = bodies[i, f]
-                    if mobility[body, 0] > 0.0:
+                    if not correcting and mobility[body, 0] > 0.0:
                         give_way(yielded[body], mobility[body], arm[i, f], change * slope[i, f], normal[i, f])
             for f in range(seen[i]):
                 gap = distance[i, f] - least
@@ -142,15 +155,15 @@ def solve_pressure(
                     + ny * (velocity[i, 1] - wall[i, f, 1])
                     + nz * (velocity[i, 2] - wall[i, f, 2])
                 )
-                limit = -gap / dt if gap > 0.0 else -CORRECTION * gap / dt
+                limit = -gap / dt if gap > 0.0 else -taken_back * gap / dt
                 body, soft = bodies[i, f], inverse_mass[i]
                 if mobility[body, 0] > 0.0:
                     closing -= along(yielded[body], arm[i, f], normal[i, f])
-                    soft += softness(mobility[body], arm[i, f], normal[i, f])
+                    soft += 0.0 if correcting else softness(mobility[body], arm[i, f], normal[i, f])
                 more = max((limit - closing) / soft, -push[i, f])
                 if more != 0.0:
                     push[i, f] += more
-                    if mobility[body, 0] > 0.0:
+                    if not correcting and mobility[body, 0] > 0.0:
                         give_way(yielded[body], mobility[body], arm[i, f], -more, normal[i, f])
                     mine = more * inverse_mass[i]
                     velocity[i, 0] += mine * nx

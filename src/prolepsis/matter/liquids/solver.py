@@ -72,11 +72,10 @@ class Liquid:
         self._gravity = np.array(gravity)
         self._fall = float(np.linalg.norm(gravity)) * LONGEST
         count = len(particles.mass)
-        self._impulse = np.zeros(count)
+        # Those of pressure, and those that take compressions back.
+        self._impulse, self._correction = np.zeros(count), np.zeros(count)
         self._viscous, self._pressed = np.zeros((count, 3)), np.zeros((count, 3))
         self._last, self._jitter = 1.0e-3, 0.0
-        # Force and torque on each body in the last step, and the part of it that was drag.
-        self._pushed, self._dragged = np.zeros((0, 6)), np.zeros((0, 6))
         self._grow(ROOM)
         self._contacts = empty_contacts(count)
         # The shortest ripple of the lightest liquid must be seen (Brackbill et al. 1992).
@@ -86,10 +85,6 @@ class Liquid:
     def _grow(self, room: int) -> None:
         self._room = room
         self._neighbours = no_neighbours(len(self.particles.mass), room * len(self.particles.mass))
-
-    def forget_pushes(self) -> None:
-        """Forget what the bodies were given: they are others now."""
-        self._pushed, self._dragged = np.zeros((0, 6)), np.zeros((0, 6))
 
     def next_step(self) -> float:
         """Return the longest step that the fastest free particle allows [s]."""
@@ -152,24 +147,21 @@ class Liquid:
         apply_impulses(impulse, pressed, v, inverse_mass, near, steepness, contacts, spacing, push)
         guess = self._viscous.take(ids, axis=0) * longer
         slip = np.zeros((n, SEEN))
-        if len(self._pushed) != len(reaction):
-            self._pushed, self._dragged = np.zeros_like(reaction), np.zeros_like(reaction)
         mobility, yielded = bodies.mobility, np.zeros_like(reaction)
-        self.effort.iterations += solve_viscosity(
-            v, guess, mass, viscosity, near, contacts, tables.drag, spacing, dt, VISCOUS_TOLERANCE,
-            VISCOUS_ITERATIONS, slip, bodies.inertia, self._dragged * dt, yielded,
-        )  # fmt: skip
-        add_drag(contacts, v, slip, yielded, x, reaction)
-        dragged = about(bodies.centre, reaction) / dt
-        put(self._viscous, ids, guess)
-        clock.lap("viscosity")
         if mobility.any():
             guessed = np.zeros_like(reaction)
             add_pressure(contacts, impulse, push, held, edges, wetting, tables.pull, spacing, dt, x, guessed)
-            yielded += response(mobility, about(bodies.centre, guessed) - dt * (self._pushed - self._dragged))
+            yielded = response(mobility, about(bodies.centre, guessed))
+        self.effort.iterations += solve_viscosity(
+            v, guess, mass, viscosity, near, contacts, tables.drag, spacing, dt, VISCOUS_TOLERANCE,
+            VISCOUS_ITERATIONS, slip, bodies.inertia, yielded,
+        )  # fmt: skip
+        add_drag(contacts, v, slip, yielded, x, reaction)
+        put(self._viscous, ids, guess)
+        clock.lap("viscosity")
         sweeps, error = solve_pressure(
-            v, inverse_mass, near, steepness, density, contacts, impulse, push, pressed, mobility, yielded, spacing, dt,
-            PRESSURE_TOLERANCE * dt, *PRESSURE_SWEEPS,
+            v, inverse_mass, near, steepness, density, contacts, impulse, push, pressed, mobility, yielded, False,
+            spacing, dt, PRESSURE_TOLERANCE * dt, *PRESSURE_SWEEPS,
         )  # fmt: skip
         self._impulse[ids] = impulse
         put(self._pressed, ids, pressed)
@@ -178,9 +170,18 @@ class Liquid:
         clock.lap("pressure")
         pin_edges(contacts, v, mass, tension, p.pinning[ids], alone, x, spacing, dt, reaction)
         add_pressure(contacts, impulse, push, held, edges, wetting, tables.pull, spacing, dt, x, reaction)
-        self._pushed, self._dragged = about(bodies.centre, reaction) / dt, dragged
-        x += dt * v
-        keep_outside(x, rider, v, contacts, spacing, solids, after, dt)
+        going, push, pressed = v.copy(), np.zeros((n, SEEN)), np.zeros((n, 3))
+        impulse = self._correction[ids] * longer
+        apply_impulses(impulse, pressed, going, inverse_mass, near, steepness, contacts, spacing, push)
+        sweeps, _ = solve_pressure(
+            going, inverse_mass, near, steepness, density, contacts, impulse, push, pressed, mobility, yielded, True,
+            spacing, dt, PRESSURE_TOLERANCE * dt, *PRESSURE_SWEEPS,
+        )  # fmt: skip
+        self._correction[ids] = impulse
+        self.effort.sweeps += sweeps
+        clock.lap("pressure")
+        x += dt * going
+        keep_outside(x, rider, going, contacts, spacing, solids, after, dt)
         put(p.position, ids, x)
         put(p.velocity, ids, v)
         self._last = dt

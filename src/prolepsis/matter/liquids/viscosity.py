@@ -34,7 +34,6 @@ def solve_viscosity(
     most: int,
     slip: FloatArray,
     inertia: FloatArray,
-    last_drag: FloatArray,
     yielded: FloatArray,
 ) -> int:
     """Change the velocities by the viscous impulses of a step, and return the number of iterations.
@@ -54,9 +53,8 @@ def solve_viscosity(
         slip: Coefficient of each wall face [kg], written here, shape (n, SEEN).
         inertia: Mass [kg] and the rows of the inertia in the world [kg m^2] of the bodies that yield, zeros for those
             that do not, shape (B, 10).
-        last_drag: Impulse and its moment about the centre of mass that drag gave to each body in the last step, as
-            long as this one, shape (B, 6).
-        yielded: Change of each body's velocity and spin by drag, written here, shape (B, 6).
+        yielded: By how much the bodies' velocity and spin differ from the walls', in: without drag, out: with it,
+            shape (B, 6).
     """
     n = len(velocity)
     start, end, other, gradient, drag, _ = neighbours
@@ -65,7 +63,7 @@ def solve_viscosity(
     found = velocity + guess
     residual, diagonal = np.empty((n, 3)), np.empty((n, 3))
     count = len(inertia)
-    body_residual, body_diagonal = -last_drag, np.ones((count, 6))
+    body_residual, body_diagonal = np.zeros((count, 6)), np.ones((count, 6))
     for b in range(count):
         for c in range(3):
             body_diagonal[b, c], body_diagonal[b, c + 3] = inertia[b, 0], inertia[b, 1 + 4 * c]
@@ -96,10 +94,14 @@ def solve_viscosity(
             wx, wy, wz, b = wall[i, f, 0], wall[i, f, 1], wall[i, f, 2], bodies[i, f]
             sx, sy, sz = sx + k * wx, sy + k * wy, sz + k * wz
             dx, dy, dz = dx + k, dy + k, dz + k
+            if inertia[b, 0] > 0.0:
+                arm, u = arms[i, f], yielded[b]
+                wx += u[0] + u[4] * arm[2] - u[5] * arm[1]
+                wy += u[1] + u[5] * arm[0] - u[3] * arm[2]
+                wz += u[2] + u[3] * arm[1] - u[4] * arm[0]
             ux, uy, uz = k * (x - wx), k * (y - wy), k * (z - wz)
             rx, ry, rz = rx - ux, ry - uy, rz - uz
             if inertia[b, 0] > 0.0:
-                arm = arms[i, f]
                 _add_wrench(body_residual[b], arm, ux, uy, uz)
                 square = arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2]
                 for c in range(3):
@@ -110,7 +112,6 @@ def solve_viscosity(
         diagonal[i, 0], diagonal[i, 1], diagonal[i, 2] = dx, dy, dz
         scale += sx * sx / dx + sy * sy / dy + sz * sz / dz
         stiffest = max(stiffest, dx / mass[i])
-    yielded[:] = 0.0
     for b in range(count):
         if inertia[b, 0] == 0.0:
             body_residual[b] = 0.0

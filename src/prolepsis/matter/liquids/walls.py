@@ -257,7 +257,7 @@ def keep_outside(
     Args:
         position: After the step [m], shape (n, 3).
         rider: What rides on each, in which it may be, shape (n,).
-        velocity: [m/s], shape (n, 3).
+        velocity: With which they have moved [m/s], shape (n, 3).
         before: What they saw before the step.
         spacing: [m].
         solids: The walls.
@@ -327,13 +327,6 @@ def keep_outside(
                 position[i, 0] += push * gx
                 position[i, 1] += push * gy
                 position[i, 2] += push * gz
-                inward = (velocity[i, 0] - before.velocity[i, f, 0]) * gx
-                inward += (velocity[i, 1] - before.velocity[i, f, 1]) * gy
-                inward += (velocity[i, 2] - before.velocity[i, f, 2]) * gz
-                if inward < 0.0:
-                    velocity[i, 0] -= inward * gx
-                    velocity[i, 1] -= inward * gy
-                    velocity[i, 2] -= inward * gz
 
 
 @njit(cache=True, inline="always")
