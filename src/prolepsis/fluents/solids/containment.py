@@ -1,8 +1,11 @@
-"""``contains(c, x)``: x is inside a depression of c, below where it would spill, and c or its contents bear it."""
+"""``contains(c, x)``: x is inside a depression of c, below where it would spill, and c or its contents bear it.
+
+A liquid is one of the contents: what has come into it is contained, be it that it floats or still sinks.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -155,7 +158,19 @@ def _borne_by_loose(observation: Observation, container: int, unit: int) -> Bool
         for below, stretches in observation.of(supporters).get(unit, [])
         if below == container or not things[below].fixed
     ]
-    return mask_of(union(borne), observation.tick_count)
+    mask = mask_of(union(borne), observation.tick_count)
+    wet = _immersed(observation, container).get(unit)
+    return mask if wet is None else mask | wet
+
+
+def _immersed(observation: Observation, container: int) -> Mapping[int, BoolArray]:
+    """Return when units are in a liquid that a container holds, which is what bears or drowns them, shape (T,) each."""
+    if not len(observation.log.particles.tick):
+        return {}
+    # Where liquids are found is told by groundings that know this one.
+    from prolepsis.fluents.liquids.immersion import immersed_in
+
+    return immersed_in(observation, container)
 
 
 def _may_be_content(observation: Observation, shape: RigidShape) -> bool:
@@ -175,6 +190,9 @@ def _borne(observation: Observation, container: int, inside: dict[int, list[Dept
     surely = {unit: mask_of(union(d.surely for d in each), count) for unit, each in inside.items()}
     over_hole = {unit: masks[unit] & ~surely[unit] for unit in inside}
     rests = {unit: mask_of(union(d.at_rest for d in each), count) for unit, each in inside.items()}
+    for unit, wet in _immersed(observation, container).items():
+        if unit in inside:
+            rests[unit] = rests[unit] | wet
     borne_by = [
         (below, above, mask_of(stretches, count))
         for (below, above), stretches in observation.of(support_runs).items()

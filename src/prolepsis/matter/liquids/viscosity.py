@@ -94,8 +94,9 @@ def solve_viscosity(
             wx, wy, wz, b = wall[i, f, 0], wall[i, f, 1], wall[i, f, 2], bodies[i, f]
             sx, sy, sz = sx + k * wx, sy + k * wy, sz + k * wz
             dx, dy, dz = dx + k, dy + k, dz + k
+            arm = arms[i, f]
             if inertia[b, 0] > 0.0:
-                arm, u = arms[i, f], yielded[b]
+                u = yielded[b]
                 wx += u[0] + u[4] * arm[2] - u[5] * arm[1]
                 wy += u[1] + u[5] * arm[0] - u[3] * arm[2]
                 wz += u[2] + u[3] * arm[1] - u[4] * arm[0]
