@@ -128,3 +128,39 @@ def test_a_draw_from_which_nothing_possible_follows_is_refused_with_its_seed(tmp
     base = load(tmp_path, light + ":cork1 a :Cork ; :length 0.1 ; :width 0.1 ; :height 0.1 .")
     with pytest.raises(KnowledgeError, match=r"what seed 2 draws cannot be: .*cork1: mass = .* at most 0.2001 kg"):
         base.with_draws(2)
+
+
+CARTON = ":carton1 a :Batch . " + "".join(f":egg{i} a :Egg ; :batch :carton1 . " for i in range(4))
+
+
+def strengths(base: KnowledgeBase, seed: int) -> list[float]:
+    return [float(draw(base, seed)[f"eggshell{i}", "breakingForce"].value) for i in range(4)]
+
+
+def test_eggs_of_one_batch_differ_less_than_eggs_of_all_kinds(tmp_path: Path) -> None:
+    base, count = load(tmp_path, CARTON), 25
+    drawn = np.array([strengths(base, seed) for seed in range(count)])
+    # Within a batch, between the means of batches, and over all; five standard errors each.
+    assert np.sqrt(drawn.var(axis=1, ddof=1).mean()) == pytest.approx(6.0, rel=5 / np.sqrt(2 * 3 * count))
+    means = np.sqrt(7.0**2 - 6.0**2 + 6.0**2 / 4)
+    assert drawn.mean(axis=1).std() == pytest.approx(means, rel=5 / np.sqrt(2 * count))
+    assert drawn.mean() == pytest.approx(45.0, abs=5 * means / np.sqrt(count))
+
+
+def test_what_is_stated_of_a_batch_is_the_mean_of_its_individuals(tmp_path: Path) -> None:
+    base = load(tmp_path, CARTON.replace(":Batch", ":Batch ; :breakingForce 38.0"))
+    known = base.value("eggshell3", "breakingForce")
+    assert (known.value, known.origin, known.deviation) == (38.0, "batch", 6.0)
+    assert known.source.startswith("carton1: ")
+    drawn = np.array([strengths(base, seed) for seed in range(10)])
+    assert drawn.mean() == pytest.approx(38.0, abs=5 * 6.0 / np.sqrt(drawn.size))
+    weaker = base.with_values({"carton1.breakingForce": 30.0})
+    assert weaker.quantity("eggshell3", "breakingForce") == 30.0
+    assert base.value("eggshell3", "shellThickness").origin == "class default"
+
+
+def test_a_batch_that_differs_more_than_all_is_refused(tmp_path: Path) -> None:
+    odd = """:OddShell a owl:Class ; rdfs:subClassOf :EggShell ; rdfs:comment "An odd shell." ; :default
+      [ :of :breakingForce ; :value 30.0 ; :deviation 2.0 ; :batchDeviation 3.0 ; :source "any" ; :certainty "D" ] ."""
+    with pytest.raises(KnowledgeError, match="batchDeviation must not be greater than the deviation"):
+        load(tmp_path, odd)

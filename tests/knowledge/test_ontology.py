@@ -112,7 +112,7 @@ def test_an_egg_shell_is_described_with_its_defaults_sources_and_superclasses(ba
     assert lines[0] == "EggShell: class. The rigid but fragile shell of an egg."
     assert "  is a: Enclosure, PhysicalObject, Shell, Solid" in lines
     assert "  must be part of: Egg" in lines
-    assert any(line.startswith("  breakingForce = 45 +- 7 N (T, seen in a text: slow") for line in lines)
+    assert any(line.startswith("  breakingForce = 45 +- 7 (6 in a batch) N (T, seen in a text: slow") for line in lines)
     assert any(line.startswith("  temperature = 293.15 K (D, decided here: room") for line in lines)
 
 

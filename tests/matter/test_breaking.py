@@ -190,9 +190,8 @@ def test_whether_a_grasped_egg_breaks_does_not_depend_on_the_substep(force: floa
 def test_slow_compression_between_pads_breaks_the_egg_as_between_plates() -> None:
     log = run(EGG_IN_HAND, "close(hand1, 60)", duration=1.6)
     first = int(log.detachments.tick[0])
-    assert log.detachments.force[0] == pytest.approx(
-        1.09 * FORCE, rel=0.12
-    )  # in 0.35 s instead of 5; orientations: 6 %
+    # It takes 0.35 s instead of 5; orientations differ by 6 %.
+    assert log.detachments.force[0] == pytest.approx(1.09 * FORCE, rel=0.12)
     approach = 0.044 - log.channels["hand1.opening"][first]
     assert 0.2e-3 < approach < 0.35e-3
 

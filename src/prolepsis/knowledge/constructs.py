@@ -99,7 +99,7 @@ _AXIOMS: Mapping[Node, frozenset[Words]] = {
 _NODE_TYPES = frozenset({OWL.Class, OWL.Restriction, OWL.ObjectProperty, RDFS.Datatype, RDF.List, *_AXIOMS})
 _PROVENANCE = frozenset({PRO.source, PRO.certainty})
 _OWN_NODES: Mapping[Node, Words] = {
-    PRO.default: frozenset({PRO.of, PRO.value, PRO.deviation}) | _PROVENANCE,
+    PRO.default: frozenset({PRO.of, PRO.value, PRO.deviation, PRO.batchDeviation}) | _PROVENANCE,
     PRO.defaultPart: frozenset({PRO.of, PRO.unless, PRO.countedBy}) | _PROVENANCE,
     PRO.curve: frozenset({PRO.of, PRO.over, PRO.point}) | _PROVENANCE,
     PRO.point: frozenset({PRO.at, PRO.value}),

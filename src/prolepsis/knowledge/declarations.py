@@ -313,11 +313,16 @@ def _defaults(document: Document, iri: URIRef, properties: Mapping[str, Property
         if value is None:
             raise KnowledgeError(f"{document.where(iri)}: {what} of {local_name(iri)} has no :value")
         where = f"{document.where(iri)}: {what} of {local_name(iri)}"
-        deviation = _one(document, node, PRO.deviation)
+        stated, within = _one(document, node, PRO.deviation), _one(document, node, PRO.batchDeviation)
+        deviation = 0.0 if stated is None else _deviation(entry, stated, where)
+        batch_deviation = deviation if within is None else _deviation(entry, within, where)
+        if batch_deviation > deviation:
+            raise KnowledgeError(f"{where}: the batchDeviation must not be greater than the deviation")
         yield Default(
             property=entry.name,
             value=read_value(entry, value, where=where),
-            deviation=0.0 if deviation is None else _deviation(entry, deviation, where),
+            deviation=deviation,
+            batch_deviation=batch_deviation,
             source=source,
             certainty=certainty,
         )

@@ -52,6 +52,8 @@ def _class_lines(base: KnowledgeBase, entry: ClassEntry) -> list[str]:
             seen.add(default.property)
             unit = base.vocabulary.properties[default.property].si_unit
             spread = f" +- {default.deviation:g}" if default.deviation else ""
+            if default.batch_deviation < default.deviation:
+                spread += f" ({default.batch_deviation:g} in a batch)"
             given = "" if class_name == entry.name else f", by {class_name}"
             lines.append(
                 f"  {default.property} = {_shown(default.value)}{spread} {unit}".rstrip()

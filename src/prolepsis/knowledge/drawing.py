@@ -27,14 +27,19 @@ def draw(base: KnowledgeBase, seed: int) -> dict[tuple[str, str], Known]:
     A quantity is drawn if it has its class default and that states a deviation: from the normal distribution, cut off
     at the bounds of the property and of the classes. Each is drawn by a generator of its own, a child of the seed by
     its name, so that no draw hangs on what else there is. What follows from others is not drawn, but follows.
+    Individuals of one batch differ by the lesser deviation of a batch from a mean of their own, which the batch states
+    or which is drawn for it.
     """
     found: dict[tuple[str, str], Known] = {}
     for name in base.objects:
         entries = [base.vocabulary.classes[c] for c in base.types.classes[name]]
         for property_name in sorted({d.property for entry in entries for d in entry.defaults if d.deviation}):
             known = base.find(name, property_name)
-            if known is None or known.origin != "class default" or not known.deviation:
+            if known is None or known.origin not in ("class default", "batch") or not known.deviation:
                 continue
+            batch = base.batch(name)
+            if batch is not None and known.origin == "class default":
+                known = _of_batch(known, child_of(seed, f"{batch}.{property_name}"))
             limits = [each for entry in entries for each in entry.limits if each.name == property_name]
             value = _drawn(
                 known, [base.vocabulary.properties[property_name], *limits], child_of(seed, f"{name}.{property_name}")
@@ -48,6 +53,12 @@ def draw(base: KnowledgeBase, seed: int) -> dict[tuple[str, str], Known]:
                 deviation=0.0,
             )
     return found
+
+
+def _of_batch(known: Known, rng: np.random.Generator) -> Known:
+    """Return the mean and deviation of one batch."""
+    between = math.sqrt(known.deviation**2 - known.batch_deviation**2)
+    return replace(known, value=float(known.value) + between * float(rng.normal()), deviation=known.batch_deviation)
 
 
 def _drawn(known: Known, bounds: list[Property], rng: np.random.Generator) -> float:

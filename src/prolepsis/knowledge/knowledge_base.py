@@ -127,7 +127,7 @@ class KnowledgeBase:
         return tuple(sorted(rows))
 
     def value(self, name: str, property_name: str) -> Known:
-        """Return the value of a property: overridden or drawn, asserted, derived, or the most specific class default.
+        """Return the value of a property: overridden or drawn, asserted, derived, its batch's, or its class's.
 
         Raises:
             UnknownNameError: If there is no such individual or property, or nothing is known of it.
@@ -292,12 +292,24 @@ class KnowledgeBase:
         known = self.find(name, property_name)
         return known.value if known is not None and isinstance(known.value, str) else None
 
+    def batch(self, name: str) -> str | None:
+        """Return the batch to which ``name`` belongs, or what it is a part of."""
+        for said in self.situation.said.get((name, "batch"), ())[:1]:
+            return str(said.value)
+        whole = self.situation.wholes.get(name)
+        return None if whole is None else self.batch(whole)
+
     def default(self, name: str, property_name: str) -> Known | None:
-        """Return the default of the most specific class of ``name``, or None."""
+        """Return what its batch has, or the default of the most specific class of ``name``, or None."""
         found = self.default_of(self.types.classes[name], property_name)
         if found is None:
             return None
         class_name, default = found
+        batch = self.batch(name)
+        of_all = None if batch is None else self.find(batch, property_name)
+        if of_all is not None:
+            within = default.batch_deviation
+            return replace(of_all, origin="batch", source=f"{batch}: {of_all.source}", deviation=within)
         return Known(
             value=default.value,
             unit=self.vocabulary.properties[property_name].si_unit,
@@ -305,6 +317,7 @@ class KnowledgeBase:
             source=f"{class_name}: {default.source}",
             certainty=default.certainty,
             deviation=default.deviation,
+            batch_deviation=default.batch_deviation,
         )
 
     def default_of(self, classes: tuple[str, ...], property_name: str) -> tuple[str, Default] | None:

@@ -87,6 +87,8 @@ class Default:
     """In SI units, ``true``/``false``, or the name of an individual."""
     deviation: float
     """Standard deviation between individuals, in SI units; 0 if not stated."""
+    batch_deviation: float
+    """That between individuals of one batch, at most as great."""
     source: str
     """Where it comes from."""
     certainty: str
