@@ -341,6 +341,8 @@ def test_a_push_keeps_up_its_force_though_what_is_held_creeps(force: float) -> N
 def test_a_push_is_done_if_its_force_was_there(force: float, outcome: str, reason: str) -> None:
     last = pushed(Yielding((0.0, 0.0, 0.722)), force)
     assert (last.outcome, last.evidence.get("reason", "")) == (outcome, reason)
+    # What was commanded stands beside what was reached, be it done or not.
+    assert last.evidence["commanded_force"] == force >= float(last.evidence["force"]) - 0.05 * force
 
 
 class Pinching(FakeHand):

@@ -150,7 +150,7 @@ def test_grasp_reaches_for_what_is_elsewhere_and_closes_with_the_named_level(egg
 
 def test_grasp_tells_the_greatest_pad_force_as_evidence(egg_in_hand: Scene) -> None:
     ends = [c for _, c in carried_out("grasp(hand1, egg1, 5)", egg_in_hand) if isinstance(c, End)]
-    assert ends[0].evidence == {"peak_pad_force": 5.0, "between": "egg1"}
+    assert ends[0].evidence == {"peak_pad_force": 5.0, "between": "egg1", "pad_force": 5.0, "commanded_force": 5.0}
 
 
 REFUSED = [

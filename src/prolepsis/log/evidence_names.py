@@ -29,6 +29,8 @@ EVIDENCE_UNITS: Mapping[str, str] = {
     "pad_force": "N",
     "peak_pad_force": "N",
     "command": "N",
+    "commanded_force": "N",
+    "commanded_speed": "m/s",
     "level": "N",
     "impulse": "N s",
     "speed": "m/s",

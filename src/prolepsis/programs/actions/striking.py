@@ -86,10 +86,7 @@ def hit(
             yield from travel(hand, sense, (0.0, 0.0, BACK), 2.0, BACK_SPEED)
             raise ActionFailedError("missed", f"{object.name} did not meet {against.name}") from None
     here = sense.hands[hand.name]
-    sense = yield (
-        Measured(evidence={"speed": met}),
-        HandTarget(hand=hand.name, offset=here.offset, rotation=here.rotation),
-    )
+    sense = yield (HandTarget(hand=hand.name, offset=here.offset, rotation=here.rotation),)
     sense = yield from compared(sense, "speed", met, speed, SPEED_WITHIN, "m/s")
     sense = yield from stay(0.05, sense)
     return (yield from travel(hand, sense, (0.0, 0.0, BACK), 2.0, BACK_SPEED))

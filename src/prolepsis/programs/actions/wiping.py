@@ -96,6 +96,5 @@ def wipe(
         here = (here[0] + along[0], here[1] + along[1], here[2] + along[2])
     # What presses on nothing feels a little of either sign.
     mean = max(total / ticks, 0.0)
-    sense = yield (Measured(evidence={"force": mean}),)
     sense = yield from compared(sense, "force", mean, force, FORCE_WITHIN, "N")
     return (yield from travel(hand, sense, (0.0, 0.0, depth), ACCELERATION, LIFT_SPEED))

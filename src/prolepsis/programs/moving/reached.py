@@ -9,6 +9,8 @@ PLACE_WITHIN = 0.01
 """A hand is where it should be within this [m]: a free one whose base pushes with all its force is 7.5 mm away."""
 TURN_WITHIN = 0.05
 """It is turned as it should be within this [rad]."""
+COMMANDED = {"N": "commanded_force", "m/s": "commanded_speed"}
+"""What evidence calls what was commanded, by its unit."""
 
 
 def arrived(hand: Thing, sense: Sense) -> Behaviour:
@@ -23,8 +25,14 @@ def arrived(hand: Thing, sense: Sense) -> Behaviour:
 
 
 def compared(sense: Sense, name: str, value: float, wanted: float, within: float, unit: str) -> Behaviour:
-    """Say so if what was measured differs from what was wanted by more than ``within``, a share of that [1]."""
+    """Tell what was measured and, of a force or a speed, what was commanded.
+
+    Say so if the two differ by more than ``within``, a share of that [1].
+    """
+    evidence: dict[str, float | str] = {name: value}
+    if unit in COMMANDED:
+        evidence[COMMANDED[unit]] = wanted
     if abs(value - wanted) <= within * wanted:
-        return sense
-    reason = f"{value:.3g} of {wanted:.4g} {unit}"
-    return (yield (Measured(evidence={name: value, "reason": reason}, outcome="not_reached"),))
+        return (yield (Measured(evidence=evidence),))
+    evidence["reason"] = f"{value:.3g} of {wanted:.4g} {unit}"
+    return (yield (Measured(evidence=evidence, outcome="not_reached"),))
