@@ -1,4 +1,4 @@
-"""Which particles lie on others that lie on a surface, so that they share their lot."""
+"""Which particles lie on, or cling to, others that lie on a surface, so that they share their lot."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def pile_up(
     manner: Bits,
     on: Labels,
 ) -> None:
-    """Let particles share the lot of those that lie under them: connected, lower, and of about the same velocity.
+    """Let particles share the lot of those that they lie on or cling to: connected, and of about the same velocity.
 
     Args:
         position: World frame [m], shape (F, P, 3).
@@ -69,26 +69,34 @@ def pile_up(
             following[p] = head[cell]
             head[cell] = p
         order = chosen[:number][np.argsort(height[chosen[:number]])]
-        for p in order:
-            if manner[f, p] >= ON:
-                continue
-            best, body = manner[f, p], on[f, p]
-            x, y, z = position[f, p, 0], position[f, p, 1], position[f, p, 2]
-            for i in range(-1, 2):
-                for j in range(-1, 2):
-                    for k in range(-1, 2):
-                        q = head[_cell(x + i * reach, y + j * reach, z + k * reach, reach, size)]
-                        while q >= 0:
-                            if manner[f, q] > best and height[q] < height[p]:
-                                square, apart = 0.0, 0.0
-                                for axis in range(3):
-                                    square += (position[f, p, axis] - position[f, q, axis]) ** 2
-                                    apart += (velocity[p, axis] - velocity[q, axis]) ** 2
-                                under = (height[p] - height[q]) ** 2 >= 0.25 * square
-                                if square < reach * reach and under and apart < together_speed * together_speed:
-                                    best, body = manner[f, q], on[f, q]
-                            q = following[q]
-            manner[f, p], on[f, p] = best, body
+        # First what lies on others, from below; then what clings to their sides, as the flank of a heap.
+        beside, done = False, False
+        while not done:
+            changed = False
+            for p in order:
+                if manner[f, p] >= ON:
+                    continue
+                best, body = manner[f, p], on[f, p]
+                x, y, z = position[f, p, 0], position[f, p, 1], position[f, p, 2]
+                for i in range(-1, 2):
+                    for j in range(-1, 2):
+                        for k in range(-1, 2):
+                            q = head[_cell(x + i * reach, y + j * reach, z + k * reach, reach, size)]
+                            while q >= 0:
+                                lies = manner[f, q] >= ON if beside else height[q] < height[p]
+                                if lies and manner[f, q] > best:
+                                    square, apart = 0.0, 0.0
+                                    for axis in range(3):
+                                        square += (position[f, p, axis] - position[f, q, axis]) ** 2
+                                        apart += (velocity[p, axis] - velocity[q, axis]) ** 2
+                                    under = (height[p] - height[q]) ** 2 >= 0.25 * square
+                                    slow = apart < together_speed * together_speed
+                                    if square < reach * reach and slow and (beside or under):
+                                        best, body = manner[f, q], on[f, q]
+                                q = following[q]
+                changed |= best > manner[f, p]
+                manner[f, p], on[f, p] = best, body
+            beside, done = True, beside and not changed
 
 
 @njit(cache=True)
