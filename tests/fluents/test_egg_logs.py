@@ -35,7 +35,8 @@ def broken_egg(*, whites_stay: bool = False) -> Timeline:
     draft.poses[:, whole, 2] = 0.0285
     draft.rest("floor", "egg1", 0, APART, 0.058 * 9.81)
     for half in ("eggshell1/piece0", "eggshell1/piece5"):
-        draft.rest("floor", half, APART, 800, 0.005 * 9.81)
+        # In the tick in which the shell falls apart what presses is told of the pieces already.
+        draft.rest("floor", half, APART - 1, 800, 0.005 * 9.81)
     places = {"yolk1/blob0": (0.1, 0.0), "yolk1/blob1": (0.0, 0.2), "yolk1/blob2": (0.0, 0.3)}
     places |= {f"white1/blob{k}": (0.1 + 0.008 * (2 * k - 1), 0.01) if whites_stay else (0.2, 0.1 * k) for k in (0, 1)}
     for name, (x, y) in places.items():
@@ -112,6 +113,11 @@ def test_a_cracked_egg_keeps_its_name_until_it_falls_apart() -> None:
         term.replace("'", "") for term in at_end(timeline)
     }
     assert not [fact for fact in timeline.facts if "eggshell1/piece1" in fact.args]
+
+
+def test_a_piece_is_borne_from_when_it_is_free_and_by_as_much_as_it_weighs() -> None:
+    borne = [fact for fact in broken_egg().select(type="supports") if str(fact.args[1]).startswith("eggshell1")]
+    assert [(fact.start, fact.evidence["margin"]) for fact in borne] == [(0.3, pytest.approx(10.0))] * 2
 
 
 def test_yolk_on_the_floor_is_spilled_and_supported_by_it() -> None:

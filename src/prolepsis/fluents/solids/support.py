@@ -52,8 +52,9 @@ def bearing_ratio(observation: Observation, above: int, bearing: FloatArray) -> 
     """Return how much of a unit's weight a force [N] bears, over what is noticed [1], shape (T,)."""
     past, future = one_sided_means(bearing, ticks_of(BALANCE_WINDOW, observation.dt))
     noticed = NOTICEABLE_SHARE * observation.mass(above) * observation.gravity
-    ratio: FloatArray = np.maximum(past, future) / np.maximum(noticed, LEAST_WEIGHT)
-    return ratio
+    ratio = np.maximum(past, future) / np.maximum(noticed, LEAST_WEIGHT)
+    # A piece weighs nothing before it has come free, and is not borne yet.
+    return np.where(observation.exists(above), ratio, 0.0)
 
 
 def bearing_forces(observation: Observation) -> dict[Pair, FloatArray]:
