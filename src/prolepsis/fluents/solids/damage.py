@@ -11,7 +11,9 @@ from prolepsis.fluents.intervals import debounce
 from prolepsis.fluents.margins import NearMiss, nearly
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event, fluent
+from prolepsis.fluents.solids.strain import margin_at
 from prolepsis.geometry.shape import FloatArray, IntArray
+from prolepsis.log.near import MARGIN
 from prolepsis.log.timeline import Fact
 
 BURST = 0.01
@@ -25,9 +27,12 @@ def breaking(observation: Observation) -> Iterator[Fact]:
     for whole, rows in observation.of(detached_rows).items():
         mask = np.zeros(observation.tick_count, dtype=np.bool_)
         mask[detachments.tick[rows]] = True
-        for start, end in debounce(mask, observation.dt, gap=BURST):
+        bursts = debounce(mask, observation.dt, gap=BURST).tolist()
+        for start, end in bursts:
             here = rows[(detachments.tick[rows] >= start) & (detachments.tick[rows] < end)]
             evidence = {"bonds": float(len(here)), "force": float(detachments.force[here].max())}
+            if start == bursts[0][0]:
+                evidence |= strength_margin(observation, whole)
             name = observation.log.things[whole].name
             yield observation.fact("event", "breaking", (name,), (start, end), evidence)
 
@@ -79,8 +84,18 @@ def broken(observation: Observation) -> Iterator[Fact | NearMiss]:
         evidence = {"bonds": float(len(rows)), "force": float(detachments.force[rows].max())}
         parts = observation.of(parts_of).get(whole)
         evidence |= {} if parts is None else parts.at_end()
+        evidence |= strength_margin(observation, whole)
         yield observation.fact("fluent", "broken", (observation.log.things[whole].name,), stretch, evidence)
     yield from _nearly_broken(observation)
+
+
+def strength_margin(observation: Observation, whole: int) -> dict[str, float]:
+    """Return how far beyond the strength of a whole that breaks was what broke it, as evidence if that is known."""
+    detachments, rows = observation.log.detachments, observation.of(detached_rows)[whole]
+    first = int(detachments.tick[rows].min())
+    force = float(detachments.force[rows][detachments.tick[rows] == first].max())
+    margin = margin_at(observation, whole, members(observation, whole), "load", first, force)
+    return {MARGIN: margin} if margin else {}
 
 
 def _nearly_broken(observation: Observation) -> Iterator[NearMiss]:
@@ -102,6 +117,11 @@ def detached_rows(observation: Observation) -> dict[int, IntArray]:
     for row, detached in enumerate(observation.log.detachments.thing.tolist()):
         found.setdefault(tops[int(detached)], []).append(row)
     return {whole: np.array(rows, dtype=np.int64) for whole, rows in found.items()}
+
+
+def members(observation: Observation, whole: int) -> list[int]:
+    """Return a topmost whole with all its parts."""
+    return [i for i, top in enumerate(observation.of(_tops)) if top == whole]
 
 
 def _tops(observation: Observation) -> list[int]:

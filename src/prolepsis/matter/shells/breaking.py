@@ -21,6 +21,7 @@ from prolepsis.matter.shells.contact import DAMPING_RATIO, ShellContact, closing
 from prolepsis.matter.shells.dents import ShellDents
 from prolepsis.matter.shells.fragment import Fragment, calm_force
 from prolepsis.matter.shells.parts import Shell
+from prolepsis.matter.shells.reach import would_bear, would_go_in
 from prolepsis.matter.shells.slow_cracks import SlowCracks
 from prolepsis.matter.shells.yielding import ShellPadding
 from prolepsis.scene.kind import Controller
@@ -99,6 +100,8 @@ class Breaking(Controller):
         """Depth of the deepest dent so far, over that at which it is pressed through [1]."""
         self._pressed_most, self._touches = -1, 0
         self._changed, self._fresh = False, True
+        self._reached = 0.0
+        """Load to which what broke it would have come [1], in that tick."""
         self._ticks = 0
         self._steady = False
         self._calm = False
@@ -134,7 +137,7 @@ class Breaking(Controller):
     def begin_tick(self, state: Running) -> None:
         """Begin to look for the greatest load and force, and bring the contact's stiffness up to date."""
         self._calm = self._steady and self.load < STEADY_LOAD
-        self.force, self.load = 0.0, 0.0
+        self.force, self.load, self._reached = 0.0, 0.0, 0.0
         self._ticks += 1
         self._fresh = self._ticks % LOOK_TICKS == 0
         self._is_near = self.intact and self._near(state)
@@ -183,7 +186,8 @@ class Breaking(Controller):
         if self.intact and self._dents:
             self._steady = False
             through = self._dents.grow(state)
-            self.pressed_in = max(self.pressed_in, self._dents.share)
+            beyond = would_go_in(state, self._number, self._dents.yields, self._dents.deepest) if through else 1.0
+            self.pressed_in = max(self.pressed_in, beyond * self._dents.share)
             if through and not self.fragments[0].parts:
                 detached += self._punch(state, through)
             totals = {} if through else self._contact_totals(state)
@@ -200,7 +204,11 @@ class Breaking(Controller):
 
     def end_tick(self, state: Running) -> None:
         """Tell load, force and how far it is pressed in."""
-        for name, value in (("load", self.load), ("force", self.force), ("pressed_in", self.pressed_in)):
+        for name, value in (
+            ("load", self._reached or self.load),
+            ("force", self.force),
+            ("pressed_in", self.pressed_in),
+        ):
             state.set_attribute(self.thing.name, name, value)
 
     def _compare(self, state: Running, totals: dict[int, float]) -> None:
@@ -263,6 +271,8 @@ class Breaking(Controller):
         if not made.changed:
             return []
         self._changed = True
+        if made.broken and not fragment.graph.cracked.any() and self.intact:
+            self._reached = would_bear(state, self._number, float(first @ pressing.normal / pressing.normal.sum()))
         fragment.set(made.parts)
         if self.intact:
             eased, borne = made.shares < 1, made.shares * pressing.normal

@@ -89,7 +89,8 @@ class ShellDents:
         """
         self._padding = padding
         self._thing, self._geom = thing.name, f"{thing.name}/0"
-        self._bears, self._deepest = bears, deepest
+        self._bears, self.deepest = bears, deepest
+        """How deep one may be [m]."""
         self._dents: dict[str, Dent] = {}
         self._others: dict[int, str] = {}
         self._pairs: dict[str, list[int]] = {}
@@ -106,7 +107,7 @@ class ShellDents:
     @property
     def share(self) -> float:
         """Depth of the deepest, over how deep one may be [1]."""
-        return max((dent.depth for dent in self._dents.values()), default=0.0) / self._deepest if self._dents else 0.0
+        return max((dent.depth for dent in self._dents.values()), default=0.0) / self.deepest if self._dents else 0.0
 
     def begin(self, state: Running, contacts: IntArray, forces: FloatArray, stiffness: float) -> None:
         """Let the shell be pressed in from now on at contacts, given by their numbers, by no more than forces [N].
@@ -117,7 +118,7 @@ class ShellDents:
             forces: What each of them bears [N], shape (c,).
             stiffness: That of the shell there [N/m].
         """
-        for other, force in self._totals(state, contacts, forces).items() if self._deepest else ():
+        for other, force in self._totals(state, contacts, forces).items() if self.deepest else ():
             dent = self._dents.setdefault(other, Dent(force=force, stiffness=stiffness))
             dent.force = min(dent.force, force)
 
@@ -130,7 +131,7 @@ class ShellDents:
         for other in self._dents.keys() - touching.keys():
             self._press_in(state, other, 0.0)
             del self._dents[other]
-        searches = {other: Search(low=dent.depth, high=self._deepest) for other, dent in self._dents.items()}
+        searches = {other: Search(low=dent.depth, high=self.deepest) for other, dent in self._dents.items()}
         for _ in range(ROUNDS):
             moved = False
             for other, dent in self._dents.items():
@@ -142,7 +143,7 @@ class ShellDents:
                 break
             state.renew_forces()
             touching = self._touching(state)
-        pressed = [touching[other] for other, dent in self._dents.items() if dent.depth >= self._deepest]
+        pressed = [touching[other] for other, dent in self._dents.items() if dent.depth >= self.deepest]
         return [touch.point for touch in pressed if touch.point is not None]
 
     def shares(self, state: Running, contacts: IntArray, normal: FloatArray, relief: float | None = None) -> FloatArray:
@@ -157,7 +158,7 @@ class ShellDents:
 
     def _share(self, total: float, dent: Dent | None, relief: float | None) -> float:
         most = math.inf if dent is None else dent.force
-        if relief is not None and self._deepest and (dent is not None or total > self._bears):
+        if relief is not None and self.deepest and (dent is not None or total > self._bears):
             most = min(most, relief * self._bears)
         return min(1.0, most / max(total, 1e-9))
 

@@ -52,7 +52,8 @@ class Shells(Kind):
     channels = (
         Channel(
             name="load",
-            doc="the greatest bond load over what it bears so fast [1], or 0 where a screen shows that none can break",
+            doc="the greatest bond load over what it bears so fast [1], or 0 where a screen shows that none can break; "
+            "once a bond breaks, what the load would have come to",
             role="Breakable",
             default=True,
         ),
@@ -64,8 +65,10 @@ class Shells(Kind):
         ),
         Channel(
             name="pressed_in",
-            doc="depth of its deepest dent so far, over that at which what lines its shell tears and it opens [1]",
+            doc="depth of its deepest dent so far, over that at which what lines its shell tears and it opens [1]; "
+            "once it has opened, how deep it would have become",
             role="Breakable",
+            default=True,
         ),
         Channel(name="broken", doc="1 once one of its bonds has detached, else 0", begins="BrokenThing"),
     )
