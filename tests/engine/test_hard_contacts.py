@@ -85,3 +85,17 @@ def test_the_force_of_a_blow_hangs_on_no_substep() -> None:
         log = run(FLOOR + ball("b", 0.03, f":z {0.03 + height!r}"), duration=math.sqrt(2.0 * height / 9.81) + 0.02)
         impulse = log.things[log.index("b")].mass * math.sqrt(2.0 * 9.81 * height) * 1.557
         assert log.contacts.peak.max() == pytest.approx(impulse / 2.5e-4, rel=0.02)
+
+
+def test_what_is_whole_bounces_and_stands_beside_a_broken_egg_as_without_it() -> None:
+    others = (
+        ball("a", 0.03, ":z 0.53")
+        + ball("b", 0.03, ":z 2.03 ; :x -0.5")
+        + block("c", (0.1, 0.1, 0.1), ":on :floor ; :x -1.0")
+    )
+    alone = run(FLOOR + others, duration=1.2)
+    beside = run(FLOOR + ":egg1 a :Egg ; :x 0.9 ; :z 0.3 ." + others, duration=1.2)
+    assert len(beside.detachments.tick)
+    for name in ("a", "b", "c"):
+        heights = (log.poses[:, log.index(name), 2] for log in (alone, beside))
+        assert np.abs(np.subtract(*heights)).max() < 1e-3

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from tests.scenes import run
 
+from prolepsis.geometry.shape import FloatArray
 from prolepsis.log.log import Log
 from prolepsis.matter.shells.contact import local_stiffness
 from prolepsis.matter.shells.padding import Padding, concentration
@@ -48,7 +49,7 @@ def energy_balance(padding: Padding, height: float) -> float:
 def test_the_force_of_a_padding_is_that_of_its_columns(padding: Padding, share: float) -> None:
     depth = share * padding.deepest
     step = min(depth, 0.022) / 100_000
-    rise = (np.arange(100_000) + 0.5) * step
+    rise: FloatArray = np.arange(0.5, 100_000.0) * step
     force = float((padding.pressure(depth - rise) * 2 * math.pi * RADIUS * (1 - rise / 0.022)).sum()) * step
     found, rising = padding.force(depth, RADIUS, 0.022)
     assert found == pytest.approx(force, rel=1e-3)

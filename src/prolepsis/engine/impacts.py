@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from prolepsis.engine.softening import Softening
 from prolepsis.engine.state import State
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.log.things import falling_apart
@@ -47,10 +48,12 @@ class Impacts:
         table = np.array([*rows, (0.0, np.nan)])[state.body_thing[state.model.geom_bodyid]]
         self.usual, self.restitution, self.modulus = usual_solids(state), table[:, 0], table[:, 1]
 
-    def step(self, model: Any, data: Any) -> None:
-        """Make one substep in which things may hit each other or slide."""
+    def step(self, model: Any, data: Any, softening: Softening, *, hits: bool) -> None:
+        """Make one substep, in which things may hit each other or slide if ``hits``."""
         mujoco.mj_step1(model, data)
-        if data.ncon:
+        if softening.any_pieces:
+            softening.soften(model, data)
+        if hits and data.ncon:
             self._meet(model, data)
         mujoco.mj_step2(model, data)
 

@@ -144,7 +144,7 @@ def simulate(
             if state.version != binding.version:
                 renewed()
         if state.splits:
-            state.softening.renew(state.model, state.data)
+            state.softening.renew(state.data)
         fast = moves(state)
         needed = approaching.longest_step(state) if fast else max_step
         step = min(max_step, needed)
@@ -156,9 +156,9 @@ def simulate(
         together = 1 if needed < max_step or [each for each in looking if not each.is_steady()] else count
         for _ in range(count // together):
             # Physics step.
-            if fast:
+            if fast or state.softening.any_pieces:
                 for _ in range(together):
-                    impacts.step(model, data)
+                    impacts.step(model, data, state.softening, hits=fast)
             else:
                 mujoco.mj_step(model, data, together)
             velocity = data.qvel * approaching.lever

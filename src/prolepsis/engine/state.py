@@ -65,7 +65,7 @@ class State:
     pushes: Pushes = field(default_factory=Pushes)
     """What kinds push now."""
     softening: Softening = field(default_factory=Softening)
-    """How stiff friction is now."""
+    """Which contacts are soft now."""
     _body_names: list[str] = field(default_factory=list[str])
     _body_of_geom: list[int] = field(default_factory=list[int])
     _bodies_version: int = -1
@@ -187,7 +187,7 @@ class State:
 
     def renew_forces(self) -> None:
         """Make contacts and forces those of the coming substep."""
-        mujoco.mj_forward(self.model, self.data)
+        self.softening.forward(self.model, self.data)
         self._forces_at = self._pairs_at = (-1, 0.0)
 
     def velocity(self, name: str) -> FloatArray:
@@ -319,7 +319,7 @@ class State:
             self.carrier[whole] = -1
         self.splits += 1
         self._rebuild()
-        self.softening.begin(self.model, self.data)
+        self.softening.begin(self.data)
         for group in fragments:
             joint = self.data.joint(things[group[0]].name)
             pose = poses[group[0]]
@@ -329,7 +329,7 @@ class State:
         for i in poses:
             if i in self.frictions:
                 self.set_friction(i, self.frictions[i])
-        mujoco.mj_forward(self.model, self.data)
+        self.softening.forward(self.model, self.data)
 
     def join(self, source: object, joints: Sequence[PointJoint]) -> list[int]:
         """Replace the joints of a source, and return their numbers."""
@@ -338,7 +338,7 @@ class State:
         numbers = self.joint_numbers(source)
         for number, joint in zip(numbers, joints, strict=True):
             self.move_joint(number, joint.point_on_first, joint.point_on_second)
-        mujoco.mj_forward(self.model, self.data)
+        self.softening.forward(self.model, self.data)
         return numbers
 
     def joint_numbers(self, source: object) -> list[int]:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from prolepsis.engine.softening import HARD_SOLIMP, HARD_SOLREF, MARGIN, STIFF
+from prolepsis.engine.softening import HARD_SOLIMP, MARGIN, SOLREF, STIFF
 from prolepsis.geometry.rotations import inverse, product, rotated
 from prolepsis.geometry.shape import IDENTITY, Quaternion, Triple, triple
 from prolepsis.geometry.solids import matter_of
@@ -23,9 +23,8 @@ TOLERANCE = 1.0e-12
 """Of the solver, relative [1]. At MuJoCo's own, 1e-8, hard contacts of light things flicker: a stack shakes itself
 down within a second, and each step takes longer. Where something may break it stays: how it is crushed hangs on
 micrometres, and it has been measured so."""
-SMALL_SOLREF = (0.004, 1.0)
-"""Contact of pieces and blobs, which weigh grams and would be passed through at the softer value."""
 SMALL_SOLIMP = (0.9, 0.95, 0.001, 0.5, 2.0)
+"""Contact of pieces and blobs, which weigh grams."""
 ROLLING_FRICTION = 2.0e-4
 """Resistance of a smooth thing to rolling, as a length [m]; a tenth of a millimetre is usual for hard round things."""
 ROUND = ("sphere", "ellipsoid", "capsule", "cylinder")
@@ -171,7 +170,7 @@ class _Making:
         pair.condim = 6
         pair.friction = [friction, friction, SPINNING_FRICTION, ROLLING_FRICTION, ROLLING_FRICTION]
         pair.gap = gap
-        pair.solref = list(SMALL_SOLREF)
+        pair.solref = list(SOLREF)
 
 
 def seen_from(holder: Thing, thing: Thing) -> tuple[Triple, Quaternion]:
@@ -231,7 +230,7 @@ def _rule_contact(made: Any, thing: Thing, grippiest: float, *, rolls: bool) -> 
     made.friction = [friction, SPINNING_FRICTION, rolling]
     made.condim = 6 if rolls else 3 if small else 4
     made.priority = priority_of(friction, grippiest)
-    made.solref = list(SMALL_SOLREF if small else HARD_SOLREF)
+    made.solref = list(SOLREF)
     made.solimp = list(SMALL_SOLIMP if small else HARD_SOLIMP)
     made.margin = 0.0 if small else MARGIN
 
