@@ -130,6 +130,7 @@ def wet(
     holders: Mapping[str, FloatArray] | None = None,
     poses: Mapping[str, FloatArray] | None = None,
     actions: tuple[Action, ...] = (),
+    lifts: Mapping[tuple[str, str], float] | None = None,
 ) -> Log:
     """Return the log of liquids whose particles stay, shape (n, 3), or go, shape (F, n, 3), as said.
 
@@ -140,12 +141,15 @@ def wet(
         holders: Index of the thing that holds each particle by liquid, shape (F, n), where some is held.
         poses: Poses of the things that move, shape (T, 7).
         actions: What a robot did.
+        lifts: Upward force [N] of one thing on another, all the time.
     """
     frames = -(-ticks // EVERY)
     every = [*things, *(liquid(name) for name in liquids)]
     draft = Draft(ticks, every)
     for name, moved in (poses or {}).items():
         draft.poses[:, draft.index(name)] = moved
+    for (below, above), force in (lifts or {}).items():
+        draft.rest(below, above, 0, ticks, force)
     position: list[FloatArray] = []
     stuff: list[int] = []
     holder: list[FloatArray] = []
