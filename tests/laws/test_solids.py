@@ -85,6 +85,20 @@ def test_a_ball_rebounds_as_its_material_and_that_below_allow(
     compare("speed after over before a ball's impact", rebound(height, material, below), expected, by=by, within=0.02)
 
 
+@pytest.mark.parametrize("speed", [0.5, 1.0, 2.0, 4.0, 8.0])
+@pytest.mark.parametrize(
+    ("material", "below", "stated", "exponent"),
+    [(STEEL, FIXED_STEEL, 0.6, 0.25), (RUBBER, STONE, 0.83, 0.035)],
+    ids=["yields", "viscoelastic"],
+)
+def test_restitution_falls_with_speed_as_the_material_does(
+    speed: float, material: str, below: str, stated: float, exponent: float
+) -> None:
+    falls = f" ; :restitutionSpeed 4.0 ; :restitutionExponent {exponent}"
+    found = rebound(speed**2 / (2 * G), material + falls, below + falls)
+    assert found == pytest.approx(min(stated * (speed / 4.0) ** -exponent, 1.0), abs=0.02)
+
+
 @pytest.mark.parametrize(("friction", "speed"), [(0.3, 0.1), (0.3, 0.5), (0.3, 2.0), (0.1, 2.0), (0.3, 4.0)])
 def test_what_slides_stops_after_its_energy_over_its_friction_and_does_not_hop(
     compare: Compare, friction: float, speed: float

@@ -25,6 +25,8 @@ HITS = 0.1
 """A slower approach is no impact [m/s]: what falls by half a millimetre does not bounce."""
 SLIDES = 0.005
 """A slower slip lifts nothing by more than a micrometre [m/s]."""
+MATERIAL = {"restitution": 0.0, "restitutionSpeed": 1.0, "restitutionExponent": 0.0, "youngsModulus": np.nan}
+"""What counts of a material, and what it is if it is not known."""
 PASSES = 5
 """How often the forces of an impact are found anew; each time about a tenth of what they lift too much is left."""
 
@@ -37,16 +39,21 @@ class Impacts:
     """Whether each neither breaks nor comes of what broke: such contacts have laws of their own, shape (G,)."""
     restitution: FloatArray = field(default_factory=lambda: np.zeros(0))
     """Of its material [1], shape (G,)."""
+    speed: FloatArray = field(default_factory=lambda: np.zeros(0))
+    """At which that was measured [m/s], shape (G,)."""
+    exponent: FloatArray = field(default_factory=lambda: np.zeros(0))
+    """Power of the speed with which it falls [1], shape (G,)."""
     modulus: FloatArray = field(default_factory=lambda: np.zeros(0))
     """Young's modulus, NaN if it is not known [Pa], shape (G,)."""
 
     def bind(self, state: State) -> None:
         """Look up what a model that is new consists of."""
         known = [each.quantities for each in state.scene.things]
-        rows = [(each.get("restitution", 0.0), each.get("youngsModulus", np.nan)) for each in known]
+        rows = [[each.get(name, default) for name, default in MATERIAL.items()] for each in known]
         # A body that is no thing has index -1.
-        table = np.array([*rows, (0.0, np.nan)])[state.body_thing[state.model.geom_bodyid]]
-        self.usual, self.restitution, self.modulus = usual_solids(state), table[:, 0], table[:, 1]
+        table = np.array([*rows, [*MATERIAL.values()]])[state.body_thing[state.model.geom_bodyid]]
+        self.restitution, self.speed, self.exponent, self.modulus = table.T
+        self.usual = usual_solids(state)
 
     def step(self, model: Any, data: Any, softening: Softening, *, hits: bool) -> None:
         """Make one substep, in which things may hit each other or slide if ``hits``."""
@@ -68,7 +75,7 @@ class Impacts:
         hits, slides, sought = normal < -HITS, slip > SLIDES, data.efc_aref
         if hits.any():
             step = float(model.opt.timestep)
-            rebound = self._rebound(pair[chosen[hits]])
+            rebound = self._rebound(pair[chosen[hits]], -normal[hits])
             sought[row[hits]] = -(1.0 + rebound) * normal[hits] / step
             # What is parting may be stopped by what hits elsewhere.
             parting = normal > 0.0
@@ -79,12 +86,15 @@ class Impacts:
             some = row[slides]
             sought[some] -= contact.friction[chosen[slides], 0] * data.efc_KBIP[some, 1] * slip[slides]
 
-    def _rebound(self, pair: IntArray) -> FloatArray:
+    def _rebound(self, pair: IntArray, speed: FloatArray) -> FloatArray:
         """Return the restitution of pairs of solids, shape (C, 2), as of two springs in series [1], shape (C,).
 
         Each gives back its share of the energy that it stores, and they store it in the inverse ratio of their moduli.
+        They meet at a ``speed`` [m/s], shape (C,).
         """
-        modulus, returned = self.modulus[pair], np.square(self.restitution[pair])
+        modulus = self.modulus[pair]
+        faster = (speed[:, None] / self.speed[pair]) ** -self.exponent[pair]
+        returned = np.square(np.minimum(self.restitution[pair] * faster, 1.0))
         share = modulus[:, 1] / modulus.sum(axis=1)
         # Of what is not known, both store the same.
         share[np.isnan(share)] = 0.5
