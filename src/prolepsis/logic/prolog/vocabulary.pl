@@ -20,6 +20,7 @@
 fact_type(absorbing, 2, event).
 fact_type(absorbs, 2, fluent).
 fact_type(attached, 2, fluent).
+fact_type(batch, 2, fluent).
 fact_type(breaking, 1, event).
 fact_type(bringing, 2, event).
 fact_type(bringing, 3, event).
@@ -43,6 +44,7 @@ fact_type(driving, 2, event).
 fact_type(driving, 3, event).
 fact_type(driving, 4, event).
 fact_type(falling, 1, event).
+fact_type(floats, 2, fluent).
 fact_type(flowingOnto, 2, event).
 fact_type(flowingOut, 2, event).
 fact_type(grasping, 3, event).
@@ -52,6 +54,7 @@ fact_type(hitting, 3, event).
 fact_type(hitting, 4, event).
 fact_type(hitting, 5, event).
 fact_type(holding, 2, event).
+fact_type(immersed, 2, fluent).
 fact_type(inFlight, 1, event).
 fact_type(lifting, 2, event).
 fact_type(lifting, 3, event).
@@ -99,12 +102,16 @@ fact_type(wiping, 2, event).
 %   evidence_unit(Name, Unit): what evidence is called; the unit of a text is ''.
 
 evidence_unit(angle, rad).
+evidence_unit(area, m2).
+evidence_unit(area_at_end, m2).
 evidence_unit(away, m).
 evidence_unit(behind, rad).
 evidence_unit(between, '').
 evidence_unit(bonds, '1').
 evidence_unit(by, '').
 evidence_unit(command, 'N').
+evidence_unit(commanded_force, 'N').
+evidence_unit(commanded_speed, 'm/s').
 evidence_unit(depth, m).
 evidence_unit(distance, m).
 evidence_unit(edge, '').
@@ -153,6 +160,7 @@ evidence_unit(volume, m3).
 
 class('Absorbent').
 class('Ball').
+class('Batch').
 class('Bead').
 class('Beads').
 class('Block').
@@ -349,6 +357,7 @@ property_inverse(supports, on).
 property(absorbentCapacity, '1').
 property(absorbs, '').
 property(adhesionStrength, 'Pa').
+property(batch, '').
 property(bottomHoleRadius, m).
 property(breadth, m).
 property(breakingForce, 'N').
@@ -410,6 +419,8 @@ property(recedingAngle, rad).
 property(recoveryTime, s).
 property(relativeMolecularMass, '1').
 property(restitution, '1').
+property(restitutionExponent, '1').
+property(restitutionSpeed, 'm/s').
 property(roll, rad).
 property(saturation, '1').
 property(scale, '1').
