@@ -7,7 +7,7 @@ import pytest
 from tests.scenes import run
 
 from prolepsis.fluents import recognize
-from prolepsis.geometry.shape import FloatArray, IntArray
+from prolepsis.geometry.shape import FloatArray
 from prolepsis.log.log import FREE, Log
 from prolepsis.matter.sponges.riding_law import RidingLaw
 
@@ -56,7 +56,8 @@ def test_as_much_goes_under_it_as_a_film_of_the_riding_height_takes_along() -> N
     expected = 0.0
     for frame in range(first, last):
         touching = ahead[frame] & (p.position[frame, honey, 1] < edge[frame] + 0.75 * p.spacing)
-        rows: IntArray = np.unique(np.round(p.position[frame, honey, 0][touching] / p.spacing).astype(np.int64))
+        across: FloatArray = p.position[frame, honey, 0][touching].astype(np.float64)
+        rows = {round(x / p.spacing) for x in across.tolist()}
         expected += film / 2 * len(rows) * p.spacing * float(edge[frame + 1] - edge[frame])
     volume = float((ahead[first] * p.volume[honey]).sum() - (ahead[last] * p.volume[honey]).sum())
     # What goes under is before the edge until it has moved by half a particle; the load is 2.0 to 2.5 N.
