@@ -52,6 +52,7 @@ RANGES: Mapping[str, Range] = {
     "volume": _positive("volume [m^3]"),
     "mass": _positive("mass [kg]"),
     "force": _positive("magnitude of a force [N]"),
+    "bears": _positive("greatest force that is borne [N]"),
     "peak_force": _positive("normal force, and contacts only push [N]"),
     "mean_force": _positive("normal force, and contacts only push [N]"),
     "pad_force": _positive("normal force, and contacts only push [N]"),

@@ -24,6 +24,7 @@ EVIDENCE_UNITS: Mapping[str, str] = {
     "volume": "m3",
     "mass": "kg",
     "force": "N",
+    "bears": "N",
     "peak_force": "N",
     "mean_force": "N",
     "pad_force": "N",

@@ -40,7 +40,7 @@ def colliding(observation: Observation) -> Iterator[Fact]:
         if not (rows > MEETING_SPEED).any():
             continue
         speed, separating = np.maximum.reduceat(rows, touch.first), np.minimum.reduceat(rows, touch.first)
-        for first, last in _impacts(touch, speed, separating, ticks_of(APART, observation.dt)):
+        for first, last in impacts(touch, speed, separating, ticks_of(APART, observation.dt)):
             met = float(speed[first:last].max())
             impulse = float(touch.force[first:last].sum() * observation.dt)
             least = IMPULSE_SHARE * _lighter_mass(observation, touch) * MEETING_SPEED
@@ -54,7 +54,7 @@ def colliding(observation: Observation) -> Iterator[Fact]:
             yield observation.fact("event", "colliding", pair_names(observation, touch.a, touch.b), stretch, evidence)
 
 
-def _impacts(touch: Touch, speed: FloatArray, separating: FloatArray, apart: int) -> Iterator[tuple[int, int]]:
+def impacts(touch: Touch, speed: FloatArray, separating: FloatArray, apart: int) -> Iterator[tuple[int, int]]:
     """Yield the impacts of a pair as (first, one past the last) of its rows."""
     since = np.diff(touch.tick, prepend=touch.tick[0] - apart - 1)
     hits = np.flatnonzero(((since > apart) & (speed > MEETING_SPEED)) | (speed > SLAMMING_SPEED))
