@@ -54,7 +54,9 @@ def apart(turtle: str) -> tuple[State, Adhesion]:
 
 def go_on(state: State, controller: Adhesion) -> None:
     """Do one tick of rigid-body physics and sticking."""
-    mujoco.mj_step(state.model, state.data)
+    mujoco.mj_step1(state.model, state.data)
+    state.softening.soften(state.model, state.data)
+    mujoco.mj_step2(state.model, state.data)
     controller.act(state)
     controller.end_tick(state)
 

@@ -366,7 +366,7 @@ class State:
         numbers, forces = data.efc_id[:rows].tolist(), data.efc_force[:rows].copy()
         # A joint at a point has three rows of its own, one after the other.
         begins = [k for k in range(rows) if not k or numbers[k] != numbers[k - 1]]
-        return {numbers[k]: forces[k:end] for k, end in zip(begins, [*begins[1:], rows], strict=True)}
+        return {numbers[k]: forces[k:end] for k, end in zip(begins, [*begins, rows][1:], strict=True)}
 
     def _rebuild(self) -> None:
         """Compile the model anew from the spec; the rest of the state is carried over."""
