@@ -116,10 +116,8 @@ class Breaking(Controller):
         self._watched: dict[int, Fragment] = {}
         self._number, self._is_near = -1, False
         self._contact = ShellContact(state, thing, quantities["plateStiffness"], quantities["poleStiffnessRatio"])
-        self._padding = ShellPadding(thing, quantities, self._contact)
-        self._dents = ShellDents(
-            thing, self._padding, self._cracking.bears, quantities.get("shellMembraneStretch", 0.0)
-        )
+        self.padding = ShellPadding(thing, quantities, self._contact)
+        self._dents = ShellDents(thing, self.padding, self._cracking.bears, quantities.get("shellMembraneStretch", 0.0))
         self._contact.update(state, -1)
         stiffest = 2 * quantities["plateStiffness"] * math.sqrt(quantities["poleStiffnessRatio"])
         self._mass, self._give = thing.mass, breaking_force / stiffest
@@ -131,7 +129,7 @@ class Breaking(Controller):
         self._watched = {state.model.body(name).id: fragment for name, fragment in bodies.items()}
         if self.intact:
             self._number = int(state.model.geom(f"{self.thing.name}/0").id)
-            self._padding.bind(state)
+            self.padding.bind(state)
             self._dents.bind(state)
 
     def begin_tick(self, state: Running) -> None:
@@ -167,8 +165,8 @@ class Breaking(Controller):
         if not state.data.ncon:
             self._steady = False
             return
-        if self.intact and self._padding:
-            self._padding.give_way(state)
+        if self.intact and self.padding:
+            self.padding.give_way(state)
         totals = self._contact_totals(state)
         if self.intact and self._foresees(state, totals):
             state.renew_forces()
@@ -337,7 +335,7 @@ class Breaking(Controller):
         local = state.data.efc_force[contact.efc_address[numbers][:, None] + FORCE_ROWS]
         force = np.einsum("cij,ci->cj", contact.frame[numbers].reshape(-1, 3, 3), local)
         rotation = state.data.xmat[body].reshape(3, 3)
-        share = self._padding.shares(state, numbers) if self.intact else 1.0
+        share = self.padding.shares(state, numbers) if self.intact else 1.0
         return Pressing(
             numbers=numbers,
             points=(contact.pos[numbers] - state.data.xpos[body]) @ rotation + fragment.origin,
@@ -358,7 +356,7 @@ class Breaking(Controller):
                 continue
             groups = [[self.pieces[int(k)] for k in part.nodes] for part in parts]
             if self.intact:
-                self._padding.come_out(state)
+                self.padding.come_out(state)
             # What is firm inside goes on as a body of its own.
             firm = [[kernel] for kernel in self.kernels] if self.intact else []
             state.split(fragment.body, groups + firm)

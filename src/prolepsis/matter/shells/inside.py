@@ -18,6 +18,7 @@ from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.log.happenings import detachment
 from prolepsis.log.log import FREE
 from prolepsis.matter.shells.parts import Membraned
+from prolepsis.matter.shells.yielding import ShellPadding
 from prolepsis.scene.kind import Controller
 from prolepsis.scene.running import MAX_STEP, Running
 
@@ -25,9 +26,10 @@ from prolepsis.scene.running import MAX_STEP, Running
 class Opening(Controller):
     """The controller of what is inside one breakable thing."""
 
-    def __init__(self, state: Running, name: str) -> None:
-        """Look after the particles that the thing called ``name`` holds."""
+    def __init__(self, state: Running, name: str, padding: ShellPadding) -> None:
+        """Look after the particles that the thing called ``name`` holds, and which comes out of its ``padding``."""
         assert state.particles is not None
+        self._padding = padding
         self._name = name
         self._index = state.scene.index(name)
         self._inside = np.flatnonzero(state.particles.holder == self._index)
@@ -54,9 +56,10 @@ class Opening(Controller):
             return
         rotation = matrix(self._pose[3:])
         arms = self._positions @ rotation.T
-        particles.position[self._inside] = self._pose[:3] + arms
+        particles.position[self._inside] = self._pose[:3] + self._padding.lifted + arms
         # Shells break in an impact: what is inside goes on as fast as it was before.
-        particles.velocity[self._inside] = self._motion[:3] + np.cross(rotation @ self._motion[3:], arms)
+        velocity = self._motion[:3] + self._padding.stopped
+        particles.velocity[self._inside] = velocity + np.cross(rotation @ self._motion[3:], arms)
         particles.holder[self._inside] = FREE
         self._inside = self._inside[:0]
 

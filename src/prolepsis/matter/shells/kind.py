@@ -120,7 +120,7 @@ class Shells(Kind):
         breaking = [Breaking(state, shell) for shell in shells]
         if particles is None:
             return breaking
-        opening = [Opening(state, shell.whole) for shell in shells if particles.holds(state.scene.index(shell.whole))]
+        opening = [Opening(state, each.thing.name, each.padding) for each in breaking if particles.holds(each.index)]
         return [*breaking, *opening, *(Membrane(state, stuff) for stuff in state.scene.each(Membraned))]
 
 

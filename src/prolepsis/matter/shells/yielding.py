@@ -37,6 +37,8 @@ class Padded:
     """By which the padding has given way [m]."""
     height: float = 1.0
     """That of the shell's middle over it, if neither were deformed [m]."""
+    approach: float = 0.0
+    """How fast the shell comes closer [m/s]."""
     out: FloatArray = field(default_factory=lambda: np.zeros(3))
     """Unit normal out of it, world frame, shape (3,)."""
 
@@ -52,6 +54,8 @@ class ShellPadding:
         # As at one point, if nothing is known.
         self._cushioned_force = shell.get("cushionedBreakingForce", self._breaking_force)
         self._thickness, self._poisson_ratio = shell["shellThickness"], shell["poissonRatio"]
+        self.lifted, self.stopped = np.zeros(3), np.zeros(3)
+        """How far it has come out when it fell apart [m], and what that took of its velocity [m/s]."""
         self._padded: dict[int, Padded] = {}
         self._number = -1
 
@@ -110,17 +114,23 @@ class ShellPadding:
                 # No softer than from the surface on, or it would be felt from afar.
                 stiffness = max(rising, force / deep, SOFTEST)
                 padded.shift = max(deep - force / stiffness, 0.0)
-            padded.height, padded.out = height, -away
+            padded.height, padded.approach, padded.out = height, approach, -away
             # Where margin and gap add up to less than 0, MuJoCo tells another distance.
             model.pair_margin[p], model.pair_gap[p] = -dent - padded.shift, NEAR + padded.shift
             stiffen(model, p, stiffness, DAMPING_RATIO)
 
     def come_out(self, state: Running) -> None:
-        """Lift the shell out of what is soft, which springs back: what falls apart within it would not find the way."""
-        out = sum((each.depth * each.out for each in self._padded.values()), np.zeros(3))
-        if out.any():
-            state.data.joint(self._thing.name).qpos[:3] += out
-            state.renew_poses()
+        """Lift the shell out of what is soft, which has stopped it: what falls apart within would not find the way."""
+        pressed = [each for each in self._padded.values() if each.depth > 0.0]
+        if not pressed:
+            return
+        for each in pressed:
+            self.lifted += each.depth * each.out
+            self.stopped += max(each.approach, 0.0) * each.out
+        joint = state.data.joint(self._thing.name)
+        joint.qpos[:3] += self.lifted
+        joint.qvel[:3] += self.stopped
+        state.renew_forces()
 
     def shares(self, state: Running, contacts: IntArray) -> FloatArray:
         """Return what part of the force of contacts, by number, would load the shell as much between plates [1].
