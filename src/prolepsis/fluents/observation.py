@@ -76,9 +76,14 @@ class Observation:
         return self.spread(present)
 
     def mass(self, unit: int) -> FloatArray:
-        """Return the mass of a unit [kg] at each tick, shape (T,): of a fragment, that of its pieces."""
+        """Return the mass of a unit [kg] at each tick, shape (T,): of a fragment, that of its pieces.
+
+        What a sponge has soaked up weighs with it.
+        """
         if not self.has_role(unit, "Piece"):
-            return np.full(self.tick_count, self.log.things[unit].mass)
+            soaked = self.of(_soaked_masses).get(unit)
+            own = np.full(self.tick_count, self.log.things[unit].mass)
+            return own if soaked is None else own + soaked
         pieces = self.of(_piece_masses)
         together = [pieces[self.log.carrier[tick] == unit].sum() for tick in self.segments]
         return self.spread(np.array(together))
@@ -161,6 +166,21 @@ def _own_bodies(observation: Observation) -> BoolArray:
     carrier: IntArray = observation.log.carrier[observation.segments]
     things: IntArray = np.arange(len(observation.log.things), dtype=np.int64)
     return carrier == things
+
+
+def _soaked_masses(observation: Observation) -> dict[int, FloatArray]:
+    """Return the mass of what each unit holds of stuffs that are no parts of it [kg] at each tick, shape (T,) each."""
+    particles = observation.log.particles
+    found: dict[int, FloatArray] = {}
+    frame = np.searchsorted(particles.tick, np.arange(observation.tick_count), side="right") - 1
+    for holder in np.unique(particles.holder[particles.holder >= 0]).tolist():
+        unit = int(observation.unit[holder])
+        foreign = observation.unit[particles.stuff] != unit
+        if foreign.any():
+            mass = (particles.holder == holder) @ np.where(foreign, particles.mass, 0.0)
+            if mass.any():
+                found[unit] = found.get(unit, np.zeros(observation.tick_count)) + mass[frame]
+    return found
 
 
 def _piece_masses(observation: Observation) -> FloatArray:
