@@ -51,6 +51,8 @@ RANGES: Mapping[str, Range] = {
     "depth": _positive("distance below a rim, or of a rim from where it was [m]"),
     "volume": _positive("volume [m^3]"),
     "mass": _positive("mass [kg]"),
+    "area": _positive("area of a film [m^2]"),
+    "area_at_end": _positive("area of a film [m^2]"),
     "force": _positive("magnitude of a force [N]"),
     "bears": _positive("greatest force that is borne [N]"),
     "peak_force": _positive("normal force, and contacts only push [N]"),
