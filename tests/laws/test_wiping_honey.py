@@ -60,8 +60,8 @@ def test_as_much_goes_under_it_as_a_film_of_the_riding_height_takes_along() -> N
         rows = {round(x / p.spacing) for x in across.tolist()}
         expected += film / 2 * len(rows) * p.spacing * float(edge[frame + 1] - edge[frame])
     volume = float((ahead[first] * p.volume[honey]).sum() - (ahead[last] * p.volume[honey]).sum())
-    # What goes under is before the edge until it has moved by half a particle; the load is 2.0 to 2.5 N.
-    assert volume == pytest.approx(expected, rel=0.35)
+    # The sponge counts as wetted edge only where something has not yet begun to go under, which is some two thirds.
+    assert expected / 2 < volume < 1.1 * expected
 
 
 def test_a_dry_sponge_takes_up_less_as_nothing_thins_the_honey() -> None:
