@@ -24,8 +24,8 @@ from prolepsis.log.timeline import Fact
 
 NOTICEABLE_SHARE = 0.1
 """Share of a body's volume [1] that is below the surface of what it is immersed in."""
-WHOLLY = 0.97
-"""From this share [1] on nothing of a body that can be told looks out."""
+BARELY, WHOLLY = 0.01, 0.97
+"""Up to which share [1] a body only touches a liquid, and from which on nothing that can be told looks out."""
 BORNE_SHARE = 0.5
 """Share of its weight [1] that a liquid bears of what floats in it, and no contact."""
 BOBBING_SPEED = 0.3
@@ -77,7 +77,7 @@ def floats(observation: Observation) -> Iterator[Fact | NearMiss]:
     for (unit, stuff), share in _shares(observation).items():
         what = ("fluent", "floats", (observation.unit_names[unit], observation.unit_names[stuff]))
         borne = _borne_by_liquid(observation, unit)
-        partly = (share >= NOTICEABLE_SHARE) & (share < WHOLLY) & (_vertical_speed(observation, unit) < BOBBING_SPEED)
+        partly = (share > BARELY) & (share < WHOLLY) & (_vertical_speed(observation, unit) < BOBBING_SPEED)
         ratio = np.where(partly, borne / BORNE_SHARE, 0.0)
         stretches = debounce(ratio >= 1.0, observation.dt, gap=GAP, least=LEAST)
         for start, end in stretches.tolist():
@@ -91,7 +91,7 @@ def floats(observation: Observation) -> Iterator[Fact | NearMiss]:
 
 
 def immersions(observation: Observation) -> tuple[Immersion, ...]:
-    """Return how deep each loose body was in what each vessel holds, of those that ever were noticeably so."""
+    """Return how deep each loose body was in what each vessel holds, of those that ever were in any."""
     seen = observation.of(particle_locations)
     if seen is None:
         return ()
@@ -102,7 +102,7 @@ def immersions(observation: Observation) -> tuple[Immersion, ...]:
             if unit == inside.unit or not _may_be_immersed(observation, shape):
                 continue
             for stuff, share in _submerged(observation, seen, inside, shape).items():
-                if (share >= NOTICEABLE_SHARE).any():
+                if (share > BARELY).any():
                     series = np.where(shape.during, seen.at_ticks(share, observation.tick_count), 0.0)
                     found.append(Immersion(unit=unit, vessel=inside.unit, stuff=stuff, share=series))
     return tuple(found)
