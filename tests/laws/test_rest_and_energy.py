@@ -12,15 +12,14 @@ from tests.laws import energy_scenes, rest_scenes
 from tests.laws.verdicts import gained, moved
 
 PUSHED = "liquid: particles that are put round a thing push it before they have settled"
-SPONGE = "liquid: it throws a light sponge back, if faster than it came the run is invalid"
 SOAKS = "liquid: what a sponge takes up is put anywhere in it, and the energy of wetting is not counted"
 MOVES = {
     "a glass ball on the bottom of a bowl of water": PUSHED,
 }
 GAINS = {
-    "a dry sponge into water": SPONGE,
-    "a dry sponge from 5 cm into water": SPONGE,
-    "a sponge into a bowl of water": SPONGE,
+    "a dry sponge into water": SOAKS,
+    "a dry sponge from 5 cm into water": SOAKS,
+    "a sponge into a bowl of water": SOAKS,
     "a sponge that is let go over water": SOAKS,
 }
 
