@@ -19,7 +19,7 @@ MASS = 0.059
 SEMI_AXES = np.array([0.0285, 0.022, 0.022])
 GIRDLE = local_stiffness(SEMI_AXES, 0.0, 150e3, 1.3)
 RADIUS = float(np.prod(SEMI_AXES)) / 0.022**2
-SPONGE = Padding(modulus=12e3, thickness=0.05, yields=math.inf, flat=0.9, returned=0.09)
+SPONGE = Padding(modulus=12e3, thickness=0.05, yields=math.inf, flat=0.846, returned=0.09)
 PULP = Padding(modulus=300e3, thickness=0.02, yields=30e3, flat=0.75, returned=0.04)
 
 
@@ -116,3 +116,14 @@ def test_any_solid_that_is_told_to_be_soft_is_so() -> None:
 def test_a_soft_ground_of_unknown_thickness_is_refused() -> None:
     with pytest.raises(KnowledgeError, match="floor .Floor. has a densificationStrain, but no paddingThickness"):
         dropped(":floor a :Floor ; :densificationStrain 0.9 ; :youngsModulus 20000.0 .", 0.0, 0.1)
+
+
+def test_an_egg_that_opens_on_a_towel_stays_there_and_throws_nothing_up() -> None:
+    log = dropped(":floor a :Floor . :soft1 a :Towel ; :on :floor ; :height 0.01 .", 0.01, 1.0, after=0.2)
+    assert broken(log)
+    first = int(log.detachments.tick[0]) + 2
+    carriers = {log.carrier[-1, i] for i, thing in enumerate(log.things) if "Piece" in thing.roles}
+    for moving in (*carriers, log.index("soft1")):
+        height = log.poses[first:, moving, 2]
+        assert height.max() < height[0] + 0.005
+        assert height.min() > 0.004

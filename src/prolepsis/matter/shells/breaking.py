@@ -336,9 +336,10 @@ class Breaking(Controller):
         force = np.einsum("cij,ci->cj", contact.frame[numbers].reshape(-1, 3, 3), local)
         rotation = state.data.xmat[body].reshape(3, 3)
         share = self.padding.shares(state, numbers) if self.intact else 1.0
+        points = self.padding.points(state, numbers) if self.intact else contact.pos[numbers]
         return Pressing(
             numbers=numbers,
-            points=(contact.pos[numbers] - state.data.xpos[body]) @ rotation + fragment.origin,
+            points=(points - state.data.xpos[body]) @ rotation + fragment.origin,
             forces=(share * sign)[:, None] * force @ rotation,
             normal=local[:, 0],
         )

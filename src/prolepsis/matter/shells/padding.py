@@ -21,7 +21,7 @@ RETURNING = 0.03
 """From this speed on it returns no more than its share [m/s]; slower, the share changes evenly: it comes to rest."""
 ROUNDS = 60
 """In which it is found how far a padding has given way; some ten are usual."""
-SHALLOW = 0.95
+SHALLOW = 0.9
 """Share of the depth from which the nearest way out is on the far side that it is pressed in at most [1]."""
 EXACT = 1.0e-9
 """To this depth [m], and to this part of what it is pressed flat at [1]."""

@@ -132,6 +132,19 @@ class ShellPadding:
         joint.qvel[:3] += self.stopped
         state.renew_forces()
 
+    def points(self, state: Running, contacts: IntArray) -> FloatArray:
+        """Return where contacts, by number, press on the shell, world frame [m], shape (c, 3).
+
+        What is pressed into something soft is touched at its surface, not half-way between both surfaces.
+        """
+        soft = {each.geom: each.out for each in self._padded.values() if each.depth > 0.0}
+        points = state.data.contact.pos[contacts]
+        for row, number in enumerate(contacts.tolist() if soft else ()):
+            for geom in state.touching()[number]:
+                if geom in soft:
+                    points[row] += state.data.contact.dist[number] / 2.0 * soft[geom]
+        return points
+
     def shares(self, state: Running, contacts: IntArray) -> FloatArray:
         """Return what part of the force of contacts, by number, would load the shell as much between plates [1].
 
