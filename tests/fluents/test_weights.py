@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from tests.fluents.logs import Draft, floor, solid_box
 from tests.scenes import run
 
 from prolepsis.fluents import recognize
@@ -29,3 +30,10 @@ def test_what_an_egg_contains_is_counted_once() -> None:
     log = run(":floor a :Floor . :egg1 a :Egg ; :on :floor .", duration=0.1)
     egg = log.index("egg1")
     assert observe(log).mass(egg)[0] == log.things[egg].mass
+
+
+@pytest.mark.parametrize(("share", "touches"), [(0.5, True), (0.02, True), (0.004, False)])
+def test_what_hardly_presses_does_not_touch(share: float, touches: bool) -> None:
+    draft = Draft(200, [floor(), solid_box("shard", mass=0.0001), solid_box("hand", mass=1.0, x=0.1)])
+    draft.press("shard", "hand", 50, 51, (share * 0.0001 * 9.81, 0.0, 0.0), (1.0, 0.0, 0.0))
+    assert bool(recognize(draft.log()).select(type="contacts")) == touches

@@ -10,7 +10,7 @@ from prolepsis.fluents.intervals import ticks_of
 from prolepsis.fluents.kinematics import point_velocities, surface_speeds
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import event
-from prolepsis.fluents.solids.contact import is_stuff, pair_names
+from prolepsis.fluents.solids.contact import is_stuff, lighter_mass, pair_names
 from prolepsis.fluents.solids.touch import Touch, touches
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.log.near import MARGIN
@@ -43,7 +43,7 @@ def colliding(observation: Observation) -> Iterator[Fact]:
         for first, last in impacts(touch, speed, separating, ticks_of(APART, observation.dt)):
             met = float(speed[first:last].max())
             impulse = float(touch.force[first:last].sum() * observation.dt)
-            least = IMPULSE_SHARE * _lighter_mass(observation, touch) * MEETING_SPEED
+            least = IMPULSE_SHARE * lighter_mass(observation, touch) * MEETING_SPEED
             if impulse < least:
                 continue
             # What touches already must slam; whatever collides has passed the lower of the two speeds.
@@ -86,9 +86,3 @@ def closing_speeds(observation: Observation) -> FloatArray:
     relative -= point_velocities(observation, contacts.b[chosen], tick, point)
     found[chosen] = np.einsum("ci,ci->c", relative, contacts.normal[chosen])
     return found
-
-
-def _lighter_mass(observation: Observation, touch: Touch) -> float:
-    things = observation.log.things
-    masses = [float(observation.mass(u).max()) for u in (touch.a, touch.b) if not things[u].fixed]
-    return min((mass for mass in masses if mass > 0), default=0.0)

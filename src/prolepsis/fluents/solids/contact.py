@@ -16,6 +16,10 @@ FLICKER = 0.03
 """Gap in a contact that is not noticed [s]: a resting body hops for some 10-20 ms at a time, a bounce that one
 sees is longer."""
 
+LEAST_PRESS = 0.01
+"""What never presses with this share of the lighter one's weight [1] does not touch: shards that brush a hand press by
+half of it, what a solver leaves between two that part by a thousandth."""
+
 
 @fluent("contacts", "o1", "o2")
 def contacts(observation: Observation) -> Iterator[Fact]:
@@ -26,6 +30,8 @@ def contacts(observation: Observation) -> Iterator[Fact]:
         names = pair_names(observation, touch.a, touch.b)
         for start, end in debounce(touch.mask(observation.tick_count, observation.dt), observation.dt, gap=FLICKER):
             evidence = forces_within(touch, int(start), int(end), observation.dt)
+            if float(evidence["peak_force"]) < LEAST_PRESS * lighter_mass(observation, touch) * observation.gravity:
+                continue
             yield observation.fact("fluent", "contacts", names, (start, end), evidence)
 
 
@@ -38,6 +44,13 @@ def forces_within(touch: Touch, start: int, end: int, dt: float) -> dict[str, fl
         "mean_force": float(force.sum() / max(end - start, 1)),
         "impulse": float(force.sum() * dt),
     }
+
+
+def lighter_mass(observation: Observation, touch: Touch) -> float:
+    """Return the mass of the lighter one of two units of which not both are fixed [kg]."""
+    things = observation.log.things
+    masses = [float(observation.mass(u).max()) for u in (touch.a, touch.b) if not things[u].fixed]
+    return min((mass for mass in masses if mass > 0), default=0.0)
 
 
 def pair_names(observation: Observation, first: int, second: int) -> tuple[str, str]:
