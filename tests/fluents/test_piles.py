@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from tests.fluents.liquids import HEIGHT, RADIUS, WALL, D, judged, poured, vessel
 
 from prolepsis.fluents.kernels.locations import RESTING
 from prolepsis.fluents.kernels.piles import pile_up
@@ -39,3 +40,20 @@ def test_a_particle_lies_with_those_that_it_touches_as_slowly(
     pile_up(position, tick, 1e-3, look, np.array([0.0, 0.0, 1.0]), 1.2 * SPACING, 0.1, manner, on)
     assert manner[1].tolist() == [RESTING, *(RESTING * lies,) * 2]
     assert on[1].tolist() == [7, *(7 if lies else -1,) * 2]
+
+
+@pytest.mark.parametrize(
+    ("radius", "height", "spilled"),
+    [
+        (RADIUS - WALL / 2, HEIGHT + D / 2, False),  # over the rim
+        (RADIUS + D / 2, HEIGHT / 2, True),  # down the outer wall
+    ],
+)
+def test_what_flows_over_a_rim_is_neither_in_the_cup_nor_spilled_yet(
+    radius: float, height: float, spilled: bool
+) -> None:
+    angle = np.linspace(0, 2 * np.pi, 120, endpoint=False)
+    ring = np.stack([radius * np.cos(angle), radius * np.sin(angle), np.full(120, height)], axis=1)
+    said = judged([vessel()], {"liq1": np.concatenate([poured(high=HEIGHT / 2), ring])})
+    assert "contains(cup1,liq1)" in said
+    assert ("spilled(liq1)" in said) == spilled

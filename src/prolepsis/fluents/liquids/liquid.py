@@ -59,7 +59,7 @@ def supports_liquid(observation: Observation) -> Iterator[Fact | NearMiss]:
         return
     from prolepsis.fluents.kernels.locations import RESTING
 
-    resting = seen.manner == RESTING
+    resting = (seen.manner == RESTING) & ~seen.over_rim()
     for stuff in seen.stuffs():
         for below in sorted(set(seen.on[resting].tolist())):
             fraction = seen.fraction(resting & (seen.on == below), stuff)
@@ -128,7 +128,8 @@ def spilled_masks(observation: Observation) -> BoolArray:
     """Return which particles lie on or flow over a surface outside every container, or have left the scene, (F, P)."""
     seen = observation.of(particle_locations)
     assert seen is not None  # asked for by groundings that have looked
-    return opened(seen.manner > 0, lasting_frames(observation, seen)) | (seen.particles.holder == PARKED)
+    lying = opened((seen.manner > 0) & ~seen.over_rim(), lasting_frames(observation, seen))
+    return lying | (seen.particles.holder == PARKED)
 
 
 def lasting_frames(observation: Observation, seen: ParticleLocations) -> int:

@@ -126,6 +126,13 @@ class ParticleLocations:
     on: npt.NDArray[np.int16]
     """Which unit they touch so, or which stuff of bodies, shape (F, P)."""
 
+    def over_rim(self) -> BoolArray:
+        """Return which particles touch only the vessel that they are about to leave, over its rim, shape (F, P)."""
+        found = np.zeros(self.manner.shape, dtype=np.bool_)
+        for each in self.inside:
+            found |= each.near & (self.on == each.unit)
+        return found
+
     def stuffs(self) -> list[int]:
         """Return the indices of the liquids."""
         return sorted(set(self.particles.stuff.tolist()))
