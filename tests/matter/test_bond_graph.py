@@ -79,8 +79,18 @@ def test_between_plates_the_shell_breaks_at_its_force_in_every_orientation() -> 
     normals = ellipsoid_normals(points, np.asarray(AXES))
     forces = np.array([45.0 / pinch(graph, p, -n, 45.0) for p, n in zip(points, normals, strict=True)])
     assert forces.mean() == pytest.approx(45.0, rel=0.02)
-    # Thirty pieces leave a spread of 6 %, well below the 20 % between one egg and the next.
-    assert forces.std() < 0.08 * 45.0
+    # What presses on the other side changes it a little; eggs differ by 15 %.
+    assert forces.std() < 0.04 * 45.0
+
+
+def test_what_presses_alone_breaks_the_shell_at_one_force_wherever_it_presses() -> None:
+    graph = egg_graph(45.0)
+    points = ellipsoid_points(np.asarray(AXES), 97)
+    normals = ellipsoid_normals(points, np.asarray(AXES))
+    loads = [graph.loads(p[None], -45.0 * n[None]).max() for p, n in zip(points, normals, strict=True)]
+    assert np.ptp(loads) < 1e-9
+    # Between plates the weaker of two sides breaks.
+    assert loads[0] == pytest.approx(0.97, abs=0.03)
 
 
 def test_bonds_next_to_a_crack_weaken_once() -> None:

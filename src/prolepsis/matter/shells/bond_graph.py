@@ -65,6 +65,10 @@ class BondGraph:
     """Whether a cracked bond is open, shape (m,)."""
     spread: float
     """Length over which a contact force is shared among pieces [m]."""
+    semi_axes: tuple[float, float, float]
+    """Half lengths of the ellipsoid that the shell is [m]."""
+    evened: float = 0.0
+    """Greatest load of a bond by each newton on a shell without cracks, wherever it presses [1/N]; 0 if as computed."""
     hardening: float = 1.0
     """Factor on what bonds bear that have not cracked: more for a short time [1]."""
     response: FloatArray = field(default_factory=lambda: np.zeros((0, 0)))
@@ -106,8 +110,22 @@ class BondGraph:
         Returns:
             Load over strength [1], shape (m,); a bond gives way at 1.
         """
-        wrench = np.einsum("cij,cj->i", self.wrenches_per_force(points), forces)
+        wrenches = self.wrenches_per_force(points)
+        if self.evened:
+            forces = forces * (self.evened / self.peaks(points))[:, None]
+        wrench = np.einsum("cij,cj->i", wrenches, forces)
         return self.ratios((self.response @ wrench).reshape(-1, 6))
+
+    def peaks(self, points: FloatArray) -> FloatArray:
+        """Return the greatest load of any bond by each newton that presses at a point alone, for long [1/N], shape (c,).
+
+        It hangs on how the pieces lie there, which are too coarse for the stress round a contact.
+        """
+        outward = points / np.square(self.semi_axes)
+        inward = -outward / np.linalg.norm(outward, axis=1, keepdims=True)
+        wrenches = np.einsum("cij,cj->ic", self.wrenches_per_force(points), inward)
+        components = (self.response @ wrenches).reshape(len(self.bonds), 6, len(points))
+        return self.hardening * self.ratios(components.transpose(2, 0, 1)).max(axis=1)
 
     def ratios(self, components: FloatArray) -> FloatArray:
         """Return load over strength of each bond [1], shape (..., m), under components as ``stresses`` takes them."""
@@ -164,6 +182,7 @@ class BondGraph:
             weakened=self.weakened | tip,
             cracked=self.cracked | broken,
             opened=self.opened | broken,
+            evened=0.0,
         )
         return cracked.without(broken & self.cracked if self.membrane_strength else broken)
 

@@ -74,6 +74,7 @@ def calibrated_graph(
         thickness=thickness,
         youngs_modulus=youngs_modulus,
         poisson_ratio=poisson_ratio,
+        semi_axes=semi_axes,
         spread=PATCH * float(np.sqrt(shell.areas.mean())),
     ).assembled()
     membrane, bending = pinch_stresses(graph, np.asarray(semi_axes), breaking_force)
@@ -95,7 +96,16 @@ def calibrated_graph(
     for _ in range(ROUNDS):
         loads = (membrane / strengths + bending / graph.bending_strength).max(axis=1)
         strengths = strengths * loads.mean()
-    return replace(graph, strengths=strengths)
+    even = replace(graph, strengths=strengths, evened=1.0)
+    return replace(even, evened=1.0 / (breaking_force * np.mean(pinch_loads(even, np.asarray(semi_axes)))))
+
+
+def pinch_loads(graph: BondGraph, semi_axes: FloatArray) -> FloatArray:
+    """Return the greatest load of a bond by each newton that presses on opposite points [1/N], (PINCH_COUNT,)."""
+    points = ellipsoid_points(semi_axes, PINCH_COUNT)
+    inward = -ellipsoid_normals(points, semi_axes)
+    pairs = zip(points, inward, strict=True)
+    return np.array([graph.loads(np.stack([p, -p]), np.stack([n, -n])).max() for p, n in pairs])
 
 
 def pinch_stresses(graph: BondGraph, semi_axes: FloatArray, force: float) -> tuple[FloatArray, FloatArray]:
