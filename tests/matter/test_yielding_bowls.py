@@ -92,7 +92,7 @@ def test_a_dent_in_clay_stays_and_what_was_elastic_springs_back() -> None:
     assert left == pytest.approx(way - elastic, abs=1e-3)
 
 
-def hit(kind: str, speed: float, force: float = 36.0) -> Log:
+def hit(kind: str, speed: float, force: float = 45.0) -> Log:
     """Return the log of an egg that falls on the middle of a panel's rim with a speed [m/s]."""
     height = HEIGHT + 0.022 + speed**2 / (2 * 9.81) + 3e-4
     x, y = 0.97 * RADIUS * math.cos(MIDDLE / 2), 0.97 * RADIUS * math.sin(MIDDLE / 2)

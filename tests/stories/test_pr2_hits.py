@@ -17,11 +17,11 @@ def hit(speed: float) -> Projection:
 
 
 def test_a_gentle_blow_leaves_the_egg_whole_and_held() -> None:
-    run = hit(0.15)
+    run = hit(0.27)
     assert run.ask(
         "occurs(hitting(rightGripper, egg1, bowl1, _), T), occurs(colliding(bowl1, egg1), C), allen(during, C, T)"
     )
-    # At 0.15 m/s the greatest load is 0.8 to 0.9 of the strength, and that is said.
+    # The greatest load is more than 0.8 of what it bears, and that is said.
     with pytest.warns(Note, match="no, but nearly so: broken"):
         assert not run.ask("holds(broken(egg1), T)")
     assert run.ask("holds(attached(rightGripper, egg1), T), occurs(colliding(bowl1, egg1), C), during(C, T)")
@@ -43,7 +43,7 @@ def test_the_hardest_blow_opens_it() -> None:
 
 
 @pytest.mark.laws
-@pytest.mark.parametrize(("force", "broken"), [(10.0, False), (20.0, False), (40.0, True)])
+@pytest.mark.parametrize(("force", "broken"), [(10.0, False), (20.0, False), (50.0, True)])
 def test_a_push_on_the_table_breaks_it_or_not(force: float, broken: bool) -> None:
     run = project(EXAMPLES / "pr2_press.toml", Force=force)
     assert bool(run.ask("holds(broken(egg1), T)")) is broken

@@ -117,7 +117,7 @@ class BondGraph:
         return self.ratios((self.response @ wrench).reshape(-1, 6))
 
     def peaks(self, points: FloatArray) -> FloatArray:
-        """Return the greatest load of any bond by each newton that presses at a point alone, for long [1/N], shape (c,).
+        """Return the greatest load of any bond by each newton that presses at a point alone and for long [1/N], (c,).
 
         It hangs on how the pieces lie there, which are too coarse for the stress round a contact.
         """

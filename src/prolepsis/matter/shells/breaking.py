@@ -35,8 +35,11 @@ at its pole. What is lighter and stiffer takes shorter ones."""
 STEADY_STEP = 2.0
 """Under one steady contact a substep is longer by this factor [1]: there is no impact to follow, and contact is stable
 below 2 rad. Several contacts are as stiff as all of them together."""
-IMPACT_SHARE = 0.33
+IMPACT_SHARE = 0.2
 """What comes closer does so in a substep by at most this part of what the shell gives until it breaks [1]."""
+LINGERING = 0.9
+"""What has met something presses most a millisecond later, when it no longer comes closer: by this factor a tick less
+fast is it taken to be for the substep [1]."""
 SHORTEST_STEP = 1.5e-5
 """No substep is shorter than this [s]."""
 DAMPED = 0.1
@@ -111,6 +114,8 @@ class Breaking(Controller):
         """When its loads were last looked at, and how long before that they had been [s]."""
         self._approach = 0.0
         """Speed with which something comes closer [m/s]."""
+        self._fast = 0.0
+        """That for which the substep is chosen [m/s]."""
         self._before: list[tuple[int, int, int, float]] = []
         """Contact forces in the substep before."""
         self._watched: dict[int, Fragment] = {}
@@ -140,6 +145,7 @@ class Breaking(Controller):
         self._fresh = self._ticks % LOOK_TICKS == 0
         self._is_near = self.intact and self._near(state)
         self._approach = closing_speed(state, self._number) if self._is_near else 0.0
+        self._fast = max(self._approach, LINGERING * self._fast)
         if self.intact and (self._fresh or not self._calm):
             pressed = self._is_near and 0 <= self._pressed_most < state.data.ncon
             self._contact.update(state, self._pressed_most if pressed else -1, self._damping())
@@ -150,7 +156,7 @@ class Breaking(Controller):
             return MAX_STEP
         longer = STEADY_STEP / math.sqrt(self._touches) if self._calm and self._touches else 1.0
         step = self._contact_step * max(longer, 1.0)
-        return min(step, max(IMPACT_SHARE * self._give / max(self._approach, 1e-9), SHORTEST_STEP))
+        return min(step, max(IMPACT_SHARE * self._give / max(self._fast, 1e-9), SHORTEST_STEP))
 
     def is_steady(self) -> bool:
         """Return whether no bond can come to break within a tick, so that its substeps need no look one by one.
