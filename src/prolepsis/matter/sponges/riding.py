@@ -108,7 +108,7 @@ class Riding:
         torn = near[out & (outward @ self._sliding.outward > FACING)]
         lying = near[under & ~out]
         taken = [self._tear(particles, group, self._film(stuff)) for stuff, group in _by_stuff(particles, torn)]
-        for stuff, group in _by_stuff(particles, near[ahead & ~under]):
+        for stuff, group in _by_stuff(particles, near[ahead]):
             self._go_under(particles, group, self._film(stuff), dt)
         taken += [self._draw_in(particles, group, stuff, dt) for stuff, group in _by_stuff(particles, lying)]
         return np.concatenate(taken) if taken else near[:0]
@@ -162,13 +162,13 @@ class Riding:
             return
         film.height = height
         film.under += height * speed / 2 * self._width(particles, ahead) * dt
-        volume = float(particles.volume[ahead[0]])
-        count = min(int(film.under / volume), len(ahead))
-        particles.rider[ahead[:count]] = self._index
+        volume, still = float(particles.volume[ahead[0]]), ahead[particles.rider[ahead] == NONE]
+        count = min(int(film.under / volume), len(still))
+        particles.rider[still[:count]] = self._index
         film.under = min(film.under - count * volume, volume)
 
     def _width(self, particles: ParticleState, ahead: IntArray) -> float:
-        """Return along how much of the leading edge particles lie [m]."""
+        """Return along how much of the leading edge particles lie, also those that have begun to go under it [m]."""
         across = np.cross(self._sliding.outward, self._sliding.velocity)
         along = particles.position[ahead] @ across / np.linalg.norm(across)
         return len(np.unique(np.round(along / particles.spacing))) * particles.spacing
