@@ -83,13 +83,14 @@ def main() -> None:
     """Print the table, of all grounds or of those that are named."""
     print("| on | greatest force borne lying | lying | standing |\n|---|---|---|---|")
     for ground in sys.argv[1:] or GROUNDS:
-        cells = []
+        cells: list[str] = []
+        force = 0.0
         for posture in POSTURES:
             substeps = SUBSTEPS if posture == "lying" else SUBSTEPS[:1]
             heights = [breaking_height(ground, posture, substep) for substep in substeps]
             cells.append(" to ".join(dict.fromkeys(told(each) for each in (min(heights), max(heights)))))
             if posture == "lying":
-                force = fallen(ground, posture, 0.98 * heights[0], SUBSTEPS[0]).channels["egg1.force"].max()
+                force = float(fallen(ground, posture, 0.98 * heights[0], SUBSTEPS[0]).channels["egg1.force"].max())
         print(f"| {ground} | {force:.0f} N | {' | '.join(cells)} |", flush=True)
 
 
