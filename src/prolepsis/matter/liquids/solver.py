@@ -24,8 +24,6 @@ from prolepsis.scene.particles import ParticleState
 
 COURANT = 1.0
 """Share of a spacing that the fastest particle may go in one step [1]."""
-GREATEST_GROWTH = 1.5
-"""Factor up to which the last step's impulses are scaled up for a longer one [1]."""
 RIPPLE = 0.4
 """Share of the period of the shortest ripple that a step may take [1]."""
 LONGEST, SHORTEST = 4.0e-3, 1.0e-4
@@ -138,8 +136,8 @@ class Liquid:
             calm(x, v, mass, near, min(self._jitter, 0.5))
             self._jitter = 0.0
         clock.lap("attraction")
-        # What a much shorter step had to correct says little of this one.
-        longer = min(dt / self._last, GREATEST_GROWTH)
+        # What a shorter step had to stop needs no more than that in a longer one.
+        longer = min(dt / self._last, 1.0)
         impulse = self._impulse[ids] * longer
         # Before viscosity, or what the last pressures do wrong at single particles would never be damped.
         push = np.zeros((n, SEEN))
