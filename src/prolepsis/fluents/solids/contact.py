@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from prolepsis.fluents.intervals import debounce
+from prolepsis.fluents.intervals import debounce, ticks_of
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import fluent
 from prolepsis.fluents.solids.touch import Touch, touches
@@ -17,20 +17,22 @@ FLICKER = 0.03
 sees is longer."""
 
 LEAST_PRESS = 0.01
-"""What never presses with this share of the lighter one's weight [1] does not touch: shards that brush a hand press by
-half of it, what a solver leaves between two that part by a thousandth."""
+"""What presses for no longer than a flicker, and never with this share of the lighter one's weight [1], does not touch:
+shards that brush a hand press by half of it, what a solver leaves between two that part by a thousandth."""
 
 
 @fluent("contacts", "o1", "o2")
 def contacts(observation: Observation) -> Iterator[Fact]:
     """Two solids press on each other; the one that acts (a gripper, then a loose thing) is named first."""
+    brief = ticks_of(FLICKER, observation.dt)
     for touch in observation.of(touches):
         if is_stuff(observation, touch.a) or is_stuff(observation, touch.b):
             continue
         names = pair_names(observation, touch.a, touch.b)
         for start, end in debounce(touch.mask(observation.tick_count, observation.dt), observation.dt, gap=FLICKER):
             evidence = forces_within(touch, int(start), int(end), observation.dt)
-            if float(evidence["peak_force"]) < LEAST_PRESS * lighter_mass(observation, touch) * observation.gravity:
+            least = LEAST_PRESS * lighter_mass(observation, touch) * observation.gravity
+            if end - start <= brief and float(evidence["peak_force"]) < least:
                 continue
             yield observation.fact("fluent", "contacts", names, (start, end), evidence)
 
