@@ -64,6 +64,7 @@ fact_type(moving, 1, event).
 fact_type(on, 2, fluent).
 fact_type(open, 1, fluent).
 fact_type(openingGripper, 1, event).
+fact_type(overloading, 2, event).
 fact_type(peeling, 4, event).
 fact_type(peeling, 5, event).
 fact_type(pouring, 3, event).
@@ -105,6 +106,7 @@ evidence_unit(angle, rad).
 evidence_unit(area, m2).
 evidence_unit(area_at_end, m2).
 evidence_unit(away, m).
+evidence_unit(bears, 'N').
 evidence_unit(behind, rad).
 evidence_unit(between, '').
 evidence_unit(bonds, '1').
@@ -358,6 +360,7 @@ property(absorbentCapacity, '1').
 property(absorbs, '').
 property(adhesionStrength, 'Pa').
 property(batch, '').
+property(bendingStrength, 'Pa').
 property(bottomHoleRadius, m).
 property(breadth, m).
 property(breakingForce, 'N').
