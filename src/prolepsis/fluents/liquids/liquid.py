@@ -59,7 +59,7 @@ def supports_liquid(observation: Observation) -> Iterator[Fact | NearMiss]:
         return
     from prolepsis.fluents.kernels.locations import RESTING
 
-    resting = (seen.manner == RESTING) & ~seen.over_rim()
+    resting = (seen.manner == RESTING) & ~observation.of(passing_rims)
     for stuff in seen.stuffs():
         for below in sorted(set(seen.on[resting].tolist())):
             fraction = seen.fraction(resting & (seen.on == below), stuff)
@@ -128,8 +128,15 @@ def spilled_masks(observation: Observation) -> BoolArray:
     """Return which particles lie on or flow over a surface outside every container, or have left the scene, (F, P)."""
     seen = observation.of(particle_locations)
     assert seen is not None  # asked for by groundings that have looked
-    lying = opened((seen.manner > 0) & ~seen.over_rim(), lasting_frames(observation, seen))
+    lying = opened((seen.manner > 0) & ~observation.of(passing_rims), lasting_frames(observation, seen))
     return lying | (seen.particles.holder == PARKED)
+
+
+def passing_rims(observation: Observation) -> BoolArray:
+    """Return which particles flow over the rim of the vessel that they are about to leave, shape (F, P)."""
+    seen = observation.of(particle_locations)
+    assert seen is not None  # asked for by groundings that have looked
+    return seen.over_rim() & (observation.of(particle_speeds) > FLOWING_SPEED)
 
 
 def lasting_frames(observation: Observation, seen: ParticleLocations) -> int:

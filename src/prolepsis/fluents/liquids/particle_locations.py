@@ -127,7 +127,7 @@ class ParticleLocations:
     """Which unit they touch so, or which stuff of bodies, shape (F, P)."""
 
     def over_rim(self) -> BoolArray:
-        """Return which particles touch only the vessel that they are about to leave, over its rim, shape (F, P)."""
+        """Return which particles touch nothing but the rim of a vessel, shape (F, P)."""
         found = np.zeros(self.manner.shape, dtype=np.bool_)
         for each in self.inside:
             found |= each.near & (self.on == each.unit)
