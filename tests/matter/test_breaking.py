@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.comparing import Compare
 from tests.scenes import EGG_IN_HAND, falling_egg, run, scene, started
 
 from prolepsis.engine.state import State
@@ -60,13 +61,16 @@ def test_a_shard_of_one_egg_may_touch_the_whole_shell_of_another() -> None:
 @pytest.mark.parametrize("substep", SUBSTEPS)
 @pytest.mark.parametrize("standing", [False, True])
 @pytest.mark.parametrize("height", [0.001, 0.004])
-def test_impact_force_is_speed_times_root_of_stiffness_and_mass(height: float, standing: bool, substep: float) -> None:
+def test_impact_force_is_speed_times_root_of_stiffness_and_mass(
+    compare: Compare, height: float, standing: bool, substep: float
+) -> None:
     log = drop(height, standing=standing, force=100.0, substep=substep)
     stiffness = POLE if standing else GIRDLE
     # A linear spring stopping a mass: F = v sqrt(k m), on top of the weight that it comes to bear.
     expected = math.sqrt(2 * 9.81 * height * stiffness * MASS) + MASS * 9.81
     assert bonds_broken(log) == 0
-    assert log.contacts.peak.max() == pytest.approx(expected, rel=0.10)
+    peak = log.contacts.peak.max()
+    compare("force of an egg's impact", peak, expected, by="`v sqrt(k m) + m g`", share=0.1, unit="N")
 
 
 @pytest.mark.laws
@@ -153,14 +157,15 @@ def test_what_becomes_of_a_dropped_egg_does_not_depend_on_the_substep(
 @pytest.mark.parametrize("where", ["lying", "standing", "rim"])
 @pytest.mark.parametrize("speed", [0.25, 0.4, 0.5, 0.6, 0.8, 0.9, 1.1, 1.2, 1.4, 1.6])
 def test_what_becomes_of_a_dropped_egg_does_not_depend_on_the_substep_or_a_micrometre(
-    monkeypatch: pytest.MonkeyPatch, where: str, speed: float
+    compare: Compare, monkeypatch: pytest.MonkeyPatch, where: str, speed: float
 ) -> None:
     outcomes = {came_of(fallen(where, speed, shift)) for shift in (0.0, 1e-6, -1e-6)}
     take_finer_steps(monkeypatch, 2)
     outcomes |= {came_of(fallen(where, speed))}
     take_finer_steps(monkeypatch, 2)
     outcomes |= {came_of(fallen(where, speed)), came_of(fallen(where, speed, 1e-6))}
-    assert len(outcomes) == 1
+    what = "bonds and parts of a dropped egg are the same at three substeps and 1 um aside"
+    compare(what, len(outcomes) == 1, True, by="convergence")
     ((bonds, parts),) = outcomes
     assert (bonds > 0, parts > 1) == (speed > 0.45, speed > 1.0)
 
@@ -169,7 +174,7 @@ def test_what_becomes_of_a_dropped_egg_does_not_depend_on_the_substep_or_a_micro
 @pytest.mark.parametrize("finer", [1, 4])
 @pytest.mark.parametrize("standing", [False, True])
 def test_a_dropped_egg_opens_where_a_dent_as_deep_as_its_membrane_stretches_takes_its_energy(
-    monkeypatch: pytest.MonkeyPatch, standing: bool, finer: int
+    compare: Compare, monkeypatch: pytest.MonkeyPatch, standing: bool, finer: int
 ) -> None:
     take_finer_steps(monkeypatch, finer)
     where = "standing" if standing else "lying"
@@ -177,9 +182,10 @@ def test_a_dropped_egg_opens_where_a_dent_as_deep_as_its_membrane_stretches_take
     assert 0.95 < speed < 1.1
     # 4 % of speed are 8 % of the depth; it comes out to 4 %, at the usual substep to 8 %.
     below = fallen(where, 0.96 * speed)
-    assert came_of(below)[1] == 1
+    what, by = "a dropped egg opens (4 % slower and faster)", "energy of the blow and of a dent of 2 mm"
+    compare(what, came_of(below)[1] > 1, False, by=by)
     assert below.channels["egg1.pressed_in"][-1] == pytest.approx(0.92, abs=0.08)
-    assert came_of(fallen(where, 1.04 * speed))[1] == 2
+    compare(what, came_of(fallen(where, 1.04 * speed))[1] == 2, True, by=by)
 
 
 @pytest.mark.laws
@@ -189,13 +195,15 @@ def test_whether_a_grasped_egg_breaks_does_not_depend_on_the_substep(force: floa
     assert {bonds_broken(log) > 0 for log in logs} == {force > FORCE}
 
 
-def test_slow_compression_between_pads_breaks_the_egg_as_between_plates() -> None:
+def test_slow_compression_between_pads_breaks_the_egg_as_between_plates(compare: Compare) -> None:
     log = run(EGG_IN_HAND, "close(hand1, 60)", duration=1.6)
     first = int(log.detachments.tick[0])
     # It takes 0.35 s instead of 5; orientations differ by 6 %.
-    assert log.detachments.force[0] == pytest.approx(1.09 * FORCE, rel=0.12)
+    by = "45 N between plates in 5 s (Commun. Phys. 2025), 1.09 times that in 0.35 s"
+    compare("force at which pads break an egg", log.detachments.force[0], 1.09 * FORCE, by=by, share=0.12, unit="N")
     approach = 0.044 - log.channels["hand1.opening"][first]
-    assert 0.2e-3 < approach < 0.35e-3
+    by = "between plates, 0.2 to 0.35 mm"
+    compare("how far pads come closer until it breaks", 1e3 * approach, (0.2, 0.35), by=by, unit="mm")
 
 
 def test_a_standing_egg_breaks_from_less_height_than_a_lying_one() -> None:

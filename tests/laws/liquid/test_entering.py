@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from tests.comparing import Compare
 from tests.laws.liquid.tank import GRAVITY
 from tests.laws.rest_scenes import TABLE, ball, block
 from tests.scenes import run
@@ -62,7 +63,7 @@ def stopping_depth(speed: float, density: float, viscosity: float, *, walled: bo
 
 
 @pytest.mark.parametrize("particles", [200, pytest.param(800, marks=pytest.mark.laws)])
-def test_a_wooden_ball_stops_in_honey_and_stays(particles: int) -> None:
+def test_a_wooden_ball_stops_in_honey_and_stays(compare: Compare, particles: int) -> None:
     """It falls 39 cm, goes in as deep as the closed forms say, and comes up with a fiftieth of its speed at most.
 
     The wall brakes what has gone in deep, and less what is still near the surface: the depth lies between those with
@@ -75,9 +76,11 @@ def test_a_wooden_ball_stops_in_honey_and_stays(particles: int) -> None:
     entered = -float(speed[enters - 1])
     stopped = enters + int(np.flatnonzero(speed[enters:] > -entered / 20)[0])
     walled, free = (stopping_depth(entered, *HONEY, walled=each) for each in (True, False))
-    assert walled < RADIUS - height[stopped] < free
+    depth, by = 1e3 * (RADIUS - height[stopped]), "added mass and drag, with and without the wall"
+    compare("how deep a wooden ball goes into honey", depth, (1e3 * walled, 1e3 * free), by=by, unit="mm")
     lowest = enters + int(height[enters : enters + 100].argmin())
-    assert speed[lowest:].max() < entered / 50
+    back = float(speed[lowest:].max()) / entered
+    compare("speed with which it comes back, over that before", back, (0.0, 0.02), by="a thick liquid gives nothing")
     timeline = recognize(log)
     (contained,) = (fact for fact in timeline.select(type="contains") if fact.args[1] == "b")
     assert 0.0 <= contained.start - enters * log.dt < 0.025
@@ -88,14 +91,15 @@ def test_a_wooden_ball_stops_in_honey_and_stays(particles: int) -> None:
 @pytest.mark.laws
 @pytest.mark.parametrize("falling", [0.0, 1e-6])
 @pytest.mark.parametrize("particles", [200, 400, 800])
-def test_a_block_of_a_gram_is_not_thrown_out_of_water(particles: int, falling: float) -> None:
+def test_a_block_of_a_gram_is_not_thrown_out_of_water(compare: Compare, particles: int, falling: float) -> None:
     """It comes out with a quarter of its speed at most, which is as fast as it rises, and floats in the end."""
     rest = f":z {0.95 + falling!r} ; :mass 0.001"
     log = run(cup("Water", block("b", (0.02, 0.02, 0.02), rest), 0.4), duration=1.5, particles=particles)
     height = height_of(log)
     speed = np.diff(height) / log.dt
     lowest = int(speed.argmin())
-    assert speed[lowest:].max() < -speed[lowest] / 4
+    back, by = float(speed[lowest:].max() / -speed[lowest]), "it rises by its buoyancy alone"
+    compare("speed of a block of 1 g out of water, over that before", back, (0.0, 0.25), by=by)
     assert any(fact.end == log.duration for fact in recognize(log).select(type="floats"))
 
 
@@ -110,8 +114,9 @@ def test_a_block_of_a_gram_is_not_thrown_out_of_water(particles: int, falling: f
         (block("b", (0.04, 0.04, 0.01), ":z 0.8 ; :density 600.0"), 600.0),
     ],
 )
-def test_what_floats_is_as_deep_in_water_as_archimedes_says(what: str, density: float) -> None:
+def test_what_floats_is_as_deep_in_water_as_archimedes_says(compare: Compare, what: str, density: float) -> None:
     """Within 0.12 of its volume, a fifth of a spacing for the flattest."""
     log = run(cup("Water", what), duration=1.5, particles=1000)
     (fact,) = recognize(log).select(type="immersed")
-    assert fact.evidence["fraction_at_end"] == pytest.approx(density / 998.0, abs=0.12)
+    found, expected = float(fact.evidence["fraction_at_end"]), density / 998.0
+    compare("share of what floats that is in water", found, expected, by="Archimedes", within=0.12)
