@@ -90,7 +90,7 @@ def test_a_wooden_ball_stops_in_honey_and_stays(compare: Compare, particles: int
 
 @pytest.mark.laws
 @pytest.mark.parametrize("falling", [0.0, 1e-6])
-@pytest.mark.parametrize("particles", [200, 400, 800])
+@pytest.mark.parametrize("particles", [400, 800, 1600])
 def test_a_block_of_a_gram_is_not_thrown_out_of_water(compare: Compare, particles: int, falling: float) -> None:
     """It comes out with a quarter of its speed at most, which is as fast as it rises, and floats in the end."""
     rest = f":z {0.95 + falling!r} ; :mass 0.001"
