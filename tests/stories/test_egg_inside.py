@@ -67,25 +67,8 @@ def test_no_particle_of_it_is_lost(cracked: Projection, dropped: Projection) -> 
         assert np.isfinite(p.position).all()
 
 
-def test_a_shell_that_is_nearly_whole_holds_what_is_in_it() -> None:
-    """From 8 cm a piece is pressed in, and the rest lies on its hole, full."""
-    log = run(":floor a :Floor . :egg1 a :Egg ; :z 0.102 .", duration=1.0)
-    timeline = recognize(log)
-    assert timeline.ask("evidence(broken(egg1), _, largest, L), L > 0.9, L < 1.0")
-    for stuff in ("white1", "yolk1"):
-        goal = f"evidence(contains(X, {stuff}), 0.9, fraction, F), F > 0.9"
-        assert timeline.ask(f"{goal}, instance_of(X, 'EggShellPiece')")
-    assert not timeline.ask("holds(spilled(_), 0.9)")
-    # It carries them: the floor bears all but what the white presses on it through the hole, under 30 mm of it.
-    contacts, floor, ticks = log.contacts, log.index("floor"), 200
-    late = contacts.tick >= contacts.tick.max() - ticks + 1
-    sign = (contacts.a == floor).astype(float) - (contacts.b == floor)
-    borne = float((sign * contacts.force[:, 2])[late].sum()) / ticks
-    assert 0.7 < borne / (9.81 * log.things[log.index("egg1")].mass) < 0.95
-
-
 @pytest.mark.filterwarnings("ignore:flowingOnto")  # what still flows is told with a no
-@pytest.mark.parametrize(("force", "breaks"), [(0.01, True), (0.5, False)])
+@pytest.mark.parametrize(("force", "breaks"), [(0.02, True), (0.5, False)])
 def test_whether_a_yolk_bursts_depends_on_its_membrane(force: float, breaks: bool) -> None:
     values = {"yolk1.membraneForce": force, "eggshell1.breakingForce": 12.0}
     log = run(":floor a :Floor . :egg1 a :Egg ; :z 0.122 .", values=values, duration=0.6)

@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from prolepsis.geometry.faces import Solids
 from prolepsis.geometry.shape import BoolArray, FloatArray, Geom, Shape, Triple
 from prolepsis.geometry.signed_distance import solids_as_arrays, union_of
 from prolepsis.log.log import FREE, PARKED
@@ -49,7 +48,7 @@ class Tank:
 
     def __init__(
         self,
-        walls: Sequence[tuple[Shape | Solids, Motion]],
+        walls: Sequence[tuple[Shape, Motion]],
         position: FloatArray,
         spacing: float,
         *,
@@ -93,7 +92,7 @@ class Tank:
         """[s]"""
         self._motions: list[Motion] = [motion for _, motion in walls]
         self._frozen: float | None = None
-        parts = [solids_as_arrays(shape) if isinstance(shape, Shape) else shape for shape, _ in walls]
+        parts = [solids_as_arrays(shape) for shape, _ in walls]
         self._solids = union_of(parts)
         self._first = np.cumsum([0, *(len(part.kind) for part in parts)]).astype(np.int64)
 

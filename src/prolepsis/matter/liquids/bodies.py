@@ -6,7 +6,7 @@ import numpy as np
 
 from prolepsis.geometry.faces import Solids
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
-from prolepsis.geometry.signed_distance import placed, union_of
+from prolepsis.geometry.signed_distance import shifted, solids_as_arrays, union_of
 from prolepsis.matter.liquids.walls import Bodies
 from prolepsis.matter.liquids.yielding import about, response
 from prolepsis.scene.parts import Panel
@@ -50,13 +50,13 @@ class WallBodies:
             whole = things[carrier].is_body
             among: list[int] = [int(carrier)] if whole else np.flatnonzero(state.carrier == carrier).tolist()
             carried = [i for i in among if things[i].shape.geoms]
-            if not carried:
+            made = [shifted(solids_as_arrays(things[i].shape), state.offsets[i]) for i in carried]
+            if not made:
                 continue
-            made = placed([things[i].shape for i in carried], state.offsets[carried])
             ids.append(body)
             carriers.append(carrier)
-            parts.append(made)
-            first.append(first[-1] + len(made.kind))
+            parts += made
+            first.append(first[-1] + sum(len(solids.kind) for solids in made))
         self.solids = union_of(parts)
         self.ids = np.array(ids, dtype=np.int64)
         self._first = np.array(first, dtype=np.int64)
