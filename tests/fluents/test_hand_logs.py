@@ -184,7 +184,7 @@ def test_any_action_of_a_log_is_an_event_with_its_arguments() -> None:
 def test_all_of_both_tables_are_listed_with_a_line() -> None:
     assert set(FLUENTS) == {
         *("contacts", "attached", "supports", "contains", "broken", "spilled", "absorbs", "dented", "buckled"),
-        *("wet", "dirty", "cracked", "open", "crushed"),
+        *("wet", "dirty", "cracked", "open", "crushed", "floats", "immersed"),
     }
     table2 = {"colliding", "falling", "moving", "openingGripper", "closingGripper", "breaking", "spilling"}
     assert table2 <= set(EVENTS)

@@ -8,6 +8,9 @@ import pytest
 
 from prolepsis import Projection, project
 
+# Blows are as weak as just cracks the shell, and that is said.
+pytestmark = pytest.mark.filterwarnings("ignore:near its threshold")
+
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
