@@ -87,3 +87,15 @@ def test_a_thing_on_a_wet_table_is_not_immersed() -> None:
     around = wide[np.abs(wide[:, :2] - [0.2, 0.0]).max(axis=1) > 0.02 + D / 2]
     timeline = recognize(wet([table(), box], {"liq1": around}, lifts={("table1", "box1"): 0.2}))
     assert says(timeline, "floats", "immersed") == set()
+
+
+def test_what_is_under_or_round_a_vessel_is_not_in_its_liquid() -> None:
+    tray = Thing(
+        name="ball1",
+        kind="Tray",
+        shape=Shape(geoms=(Geom(type="box", size=(0.1, 0.1, 0.004)),)),
+        mass=0.3,
+        position=(0.0, 0.0, -0.004),
+    )
+    log = wet([table(), vessel(), tray], {"liq1": poured(high=LEVEL)}, ticks=100)
+    assert says(recognize(log), "floats", "immersed") == set()

@@ -58,3 +58,19 @@ def test_a_grasp_that_crushes_says_at_which_force_and_a_no_tells_of_it() -> None
     assert grasp.evidence["force"] == pytest.approx(broken.evidence["force"], rel=0.02)
     with pytest.warns(Note, match=r"grasping\(hand1,egg1,60\) was crushed \(egg1 broke at .* of 60 N\)"):
         assert recognize(log).ask("holds(attached(hand1, egg1), T)") == []
+
+
+def test_what_breaks_by_what_is_held_is_not_crushed_by_the_grip_on_that() -> None:
+    block = ":block1 a :Block ; :on :table1 ; :y 0.2 ; :length 0.04 ; :width 0.04 ; :height 0.04 . "
+
+    class Holding(Breaking):
+        """A hand that holds another thing than the egg, with more than what breaks that."""
+
+        def sense(self, time: float) -> Sense:
+            full = super().sense(time)
+            full.hands["hand1"].held = lambda: ("block1",)
+            return full
+
+    known, hand = scene(EGG_IN_HAND + block), Holding(40.0, pressed=8.0)
+    said = carried_out("sequence([close(hand1, 40), press(hand1, block1, egg1, 10)])", known, hand)
+    assert all(each.outcome != "crushed" for _, each in said if isinstance(each, End))

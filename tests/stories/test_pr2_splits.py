@@ -8,8 +8,8 @@ import pytest
 
 from prolepsis import Projection, project
 
-# Blows are as weak as just cracks the shell, and that is said.
-pytestmark = pytest.mark.filterwarnings("ignore:near its threshold")
+# Blows are as weak as just cracks the shell, and what comes apart is lost by the second hand: both is said.
+pytestmark = pytest.mark.filterwarnings("ignore:near its threshold", "ignore:no, but splitting")
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

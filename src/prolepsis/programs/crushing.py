@@ -30,6 +30,10 @@ class Crushing:
         self._against = [thing.name for thing in named]
         self._felt: dict[str, tuple[float, float]] = {}
         """Force in each hand, and the one that it should have [N], the tick before."""
+        self._between: dict[str, set[str]] = {}
+        """What was between the pads of each hand then."""
+        self._bore: dict[str, float] = {}
+        """What pressed on each thing in all then [N]."""
         self._borne: dict[str, float] = {}
         """Force with which each of what is pressed is pressed on something named, the tick before [N]."""
 
@@ -38,12 +42,16 @@ class Crushing:
         found: dict[str, float | str] = {}
         for name in [each for each in self._whole if sense.attribute(each, "broken")]:
             self._whole.remove(name)
-            force, wanted = max((*self._felt.values(), (self._borne.get(name, 0.0), self._push)))
-            exerted = 2 * sum(felt for felt, _ in self._felt.values()) + self._borne.get(name, 0.0)
-            if exerted > MOST * sense.attribute(name, "force"):
+            grips = [self._felt[each] for each in self._felt if name in self._between[each]]
+            gripped, borne = 2 * sum(felt for felt, _ in grips), self._borne.get(name, 0.0)
+            force, wanted = max(grips) if gripped > borne else (borne, self._push)
+            pressed = max(sense.attribute(name, "force"), self._bore.get(name, 0.0))
+            if gripped + borne > MOST * pressed:
                 found = {"force": force, "reason": f"{name} broke at {force:.3g} of {wanted:.4g} N"}
         if self._whole:
             self._felt = {each: (sense.hands[each].pad_force, sense.hands[each].grip) for each in self._hands}
+            self._between = {each: {*sense.hands[each].between(), *sense.hands[each].held()} for each in self._hands}
+            self._bore = {each: sense.attribute(each, "force") for each in self._whole}
             for name in self._pressed:
                 self._borne[name] = sum(sense.pressing(name, other) for other in self._against if other != name)
         return found

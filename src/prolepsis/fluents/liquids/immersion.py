@@ -43,6 +43,11 @@ SECTORS, WET_SECTORS = 8, 3
 COMPANY = 2
 """So many particles must be close below one that is of the surface: a drop in the air has none."""
 
+DIRECTIONS = 16
+"""Directions across, in each of which a body is in a liquid as far as that reaches ..."""
+BESIDE = 0.6
+"""... and a little more [spacings]: to the wall it is half a spacing from the outermost particles."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class Immersion:
@@ -177,7 +182,15 @@ def _below_surface(liquid: FloatArray, matter: FloatArray, up: FloatArray, spaci
     if len(tops) < WET_SECTORS:
         return 0.0, ring
     surface = float(np.median(tops)) + spacing / 2
-    return float((height < surface).mean()), ring
+    return float(((height < surface) & _within(liquid, matter, up, spacing)).mean()), ring
+
+
+def _within(liquid: FloatArray, matter: FloatArray, up: FloatArray, spacing: float) -> BoolArray:
+    """Return which points of a body are where the liquid is, not under or round its vessel, shape (m,)."""
+    e1 = np.cross(up, [1.0, 0.0, 0.0] if abs(up[0]) < 0.5 else [0.0, 1.0, 0.0])
+    angles = np.arange(DIRECTIONS) * 2 * math.pi / DIRECTIONS
+    ways = np.vstack([np.outer(np.cos(angles), e1) + np.outer(np.sin(angles), np.cross(up, e1)), -up])
+    return (matter @ ways.T <= (liquid @ ways.T).max(axis=0) + BESIDE * spacing).all(axis=1)
 
 
 def _lattice(shape: RigidShape) -> FloatArray:
