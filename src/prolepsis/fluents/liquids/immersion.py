@@ -189,8 +189,8 @@ def _within(liquid: FloatArray, matter: FloatArray, up: FloatArray, spacing: flo
     """Return which points of a body are where the liquid is, not under or round its vessel, shape (m,)."""
     e1 = np.cross(up, [1.0, 0.0, 0.0] if abs(up[0]) < 0.5 else [0.0, 1.0, 0.0])
     angles = np.arange(DIRECTIONS) * 2 * math.pi / DIRECTIONS
-    ways = np.vstack([np.outer(np.cos(angles), e1) + np.outer(np.sin(angles), np.cross(up, e1)), -up])
-    return (matter @ ways.T <= (liquid @ ways.T).max(axis=0) + BESIDE * spacing).all(axis=1)
+    directions = np.vstack([np.outer(np.cos(angles), e1) + np.outer(np.sin(angles), np.cross(up, e1)), -up])
+    return (matter @ directions.T <= (liquid @ directions.T).max(axis=0) + BESIDE * spacing).all(axis=1)
 
 
 def _lattice(shape: RigidShape) -> FloatArray:
