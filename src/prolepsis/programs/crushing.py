@@ -42,7 +42,7 @@ class Crushing:
         found: dict[str, float | str] = {}
         for name in [each for each in self._whole if sense.attribute(each, "broken")]:
             self._whole.remove(name)
-            grips = [self._felt[each] for each in self._felt if name in self._between[each]]
+            grips = [self._felt[each] for each in self._felt if name in self._between.get(each, ())]
             gripped, borne = 2 * sum(felt for felt, _ in grips), self._borne.get(name, 0.0)
             force, wanted = max(grips) if gripped > borne else (borne, self._push)
             pressed = max(sense.attribute(name, "force"), self._bore.get(name, 0.0))
@@ -50,7 +50,8 @@ class Crushing:
                 found = {"force": force, "reason": f"{name} broke at {force:.3g} of {wanted:.4g} N"}
         if self._whole:
             self._felt = {each: (sense.hands[each].pad_force, sense.hands[each].grip) for each in self._hands}
-            self._between = {each: {*sense.hands[each].between(), *sense.hands[each].held()} for each in self._hands}
+            felt = {each: sense.hands[each] for each in self._hands if sense.hands[each].pad_force > 0}
+            self._between = {each: {*hand.between(), *hand.held()} for each, hand in felt.items()}
             self._bore = {each: sense.attribute(each, "force") for each in self._whole}
             for name in self._pressed:
                 self._borne[name] = sum(sense.pressing(name, other) for other in self._against if other != name)
