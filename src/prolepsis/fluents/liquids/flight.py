@@ -8,7 +8,7 @@ import numpy as np
 
 from prolepsis.fluents.intervals import debounce, mask_of
 from prolepsis.fluents.liquids.blobs_in_hollows import blobs_in_hollows
-from prolepsis.fluents.liquids.particle_locations import particle_locations
+from prolepsis.fluents.liquids.particle_locations import ParticleLocations, particle_locations, stays
 from prolepsis.fluents.liquids.stuff import STUFF_GAP, STUFF_LEAST, mass_of, outside_masks, share_of, uncontained_masks
 from prolepsis.fluents.margins import NearMiss
 from prolepsis.fluents.observation import Observation
@@ -23,12 +23,14 @@ from prolepsis.log.timeline import Fact
 
 @event("inFlight", "o")
 def in_flight(observation: Observation) -> Iterator[Fact | NearMiss]:
-    """A noticeable fraction of the stuff is in no hollow and touches nothing: it falls, streams or splashes."""
+    """A noticeable fraction of the stuff is in no hollow, touches nothing and moves: it falls, streams or splashes."""
     seen = observation.of(particle_locations)
     if seen is not None:
         away = (seen.manner == 0) & (seen.particles.holder == FREE)
         for inside in seen.inside:
             away &= ~inside.hollow
+        if away.any():
+            away &= ~_staying(observation, seen)
         for stuff in seen.stuffs():
             fraction = seen.at_ticks(seen.fraction(away, stuff), observation.tick_count)
             yield from _facts(observation, stuff, fraction, seen.mass(stuff))
@@ -36,6 +38,17 @@ def in_flight(observation: Observation) -> Iterator[Fact | NearMiss]:
     for stuff, shares in observation.of(blob_shares).items():
         fraction = share_of(observation, shares, masks)
         yield from _facts(observation, stuff, fraction, mass_of(observation, stuff, shares))
+
+
+def _staying(observation: Observation, seen: ParticleLocations) -> BoolArray:
+    """Return which particles hardly move in the world or along with what they are near, as what fills a gap, (F, P)."""
+    at_home = np.tile(np.array([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]), (len(seen.particles.tick), 1))
+    found = stays(observation, seen.particles, at_home)
+    for inside in seen.inside:
+        for body in observation.bodies(inside.unit):
+            poses = observation.log.poses[seen.particles.tick, body]
+            found |= inside.near & stays(observation, seen.particles, poses)
+    return found
 
 
 def _facts(observation: Observation, stuff: int, fraction: FloatArray, mass: float) -> Iterator[Fact | NearMiss]:

@@ -269,14 +269,14 @@ def _seen_inside(observation: Observation, particles: Particles, loose: BoolArra
     pool = (bits & POOL) > 0
     doubtful = ((over_holes & POOL) > 0) & ~pool
     if doubtful.any():
-        pool |= doubtful & _stays(observation, particles, poses)
+        pool |= doubtful & stays(observation, particles, poses)
     hollow = pool | ((bits & HOLLOW) > 0)
     near = hollow | ((bits & ROUND) > 0)
     unit = int(observation.unit[shape.body])
     return Inside(unit=unit, pool=pool, hollow=hollow, near=near, depth=depth, rims=(rim,))
 
 
-def _stays(observation: Observation, particles: Particles, poses: FloatArray) -> BoolArray:
+def stays(observation: Observation, particles: Particles, poses: FloatArray) -> BoolArray:
     """Return which particles hardly move in the frame of a body with some poses, shape (F, P)."""
     local = rotate_back(poses[:, None, 3:], particles.position - poses[:, None, :3])
     tick, half = particles.tick, ticks_of(STAYING_WINDOW / 2, observation.dt)
