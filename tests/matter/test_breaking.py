@@ -51,10 +51,13 @@ def test_stiffness_between_plates_is_that_of_the_ontology() -> None:
 
 def test_a_shard_of_one_egg_may_touch_the_whole_shell_of_another() -> None:
     below = ":egg2 a :QuailEgg ; :on :floor ; :x 0.012 ; :y -0.02 . "
-    # As weak as the quail's egg below, so that both break.
+    # Weaker than the quail's egg below, which is hit by its shards.
     above = ":egg1 a :Egg ; :x 0.013 ; :y -0.021 ; :z 0.55 ."
     log = run(":floor a :Floor . " + below + above, values={"eggshell1.breakingForce": 9.0}, duration=0.4)
-    assert {log.index("egg1"), log.index("egg2")} <= {*log.detachments.thing.tolist()}
+    assert log.index("egg1") in log.detachments.thing
+    own = {i for i, thing in enumerate(log.things) if thing.name.startswith("eggshell1/")}
+    pairs = zip(log.contacts.a.tolist(), log.contacts.b.tolist(), strict=True)
+    assert any(log.index("egg2") in pair and own & {*pair} for pair in pairs)
 
 
 @pytest.mark.laws
@@ -150,12 +153,12 @@ def test_what_becomes_of_a_dropped_egg_does_not_depend_on_the_substep(
 ) -> None:
     take_finer_steps(monkeypatch, finer)
     outcomes = [came_of(fallen(where, speed)) for where, speed in (("lying", 0.8), ("lying", 1.2), ("rim", 1.2))]
-    assert outcomes == [(1, 1), (8, 2), (7, 2)]
+    assert outcomes == [(1, 1), (10, 3), (7, 2)]
 
 
 @pytest.mark.laws
 @pytest.mark.parametrize("where", ["lying", "standing", "rim"])
-@pytest.mark.parametrize("speed", [0.25, 0.4, 0.5, 0.6, 0.8, 0.9, 1.1, 1.2, 1.4, 1.6])
+@pytest.mark.parametrize("speed", [0.25, 0.4, 0.55, 0.6, 0.8, 0.9, 1.1, 1.2, 1.4, 1.6, 2.0, 3.0, 4.0])
 def test_what_becomes_of_a_dropped_egg_does_not_depend_on_the_substep_or_a_micrometre(
     compare: Compare, monkeypatch: pytest.MonkeyPatch, where: str, speed: float
 ) -> None:
@@ -167,7 +170,7 @@ def test_what_becomes_of_a_dropped_egg_does_not_depend_on_the_substep_or_a_micro
     what = "bonds and parts of a dropped egg are the same at three substeps and 1 um aside"
     compare(what, len(outcomes) == 1, True, by="convergence")
     ((bonds, parts),) = outcomes
-    assert (bonds > 0, parts > 1) == (speed > 0.45, speed > 1.0)
+    assert (bonds > 0, parts > 1) == (speed > 0.5, speed > 1.0)
 
 
 @pytest.mark.laws

@@ -129,5 +129,6 @@ def test_an_egg_that_opens_on_a_towel_stays_there_and_throws_nothing_up() -> Non
     carriers = {log.carrier[-1, i] for i, thing in enumerate(log.things) if "Piece" in thing.roles}
     for moving in (*carriers, log.index("soft1")):
         height = log.poses[first:, moving, 2]
-        assert height.max() < height[0] + 0.005
+        # What lies loose under the rest may be tilted, by half of its width of 14 mm.
+        assert height.max() < height[0] + 0.007
         assert height.min() > 0.004

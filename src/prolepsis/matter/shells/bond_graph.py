@@ -68,7 +68,11 @@ class BondGraph:
     semi_axes: tuple[float, float, float]
     """Half lengths of the ellipsoid that the shell is [m]."""
     evened: float = 0.0
-    """Greatest load of a bond by each newton on a shell without cracks, wherever it presses [1/N]; 0 if as computed."""
+    """Greatest load of a bond by each newton on a whole shell, wherever it presses [1/N]; 0 if as computed."""
+    damaged: bool = False
+    """Whether any bond has given way."""
+    apart: bool = False
+    """Whether it is a part of a shell that has fallen apart."""
     hardening: float = 1.0
     """Factor on what bonds bear that have not cracked: more for a short time [1]."""
     response: FloatArray = field(default_factory=lambda: np.zeros((0, 0)))
@@ -111,10 +115,17 @@ class BondGraph:
             Load over strength [1], shape (m,); a bond gives way at 1.
         """
         wrenches = self.wrenches_per_force(points)
-        if self.evened:
+        if self.evened and not self.damaged:
             forces = forces * (self.evened / self.peaks(points))[:, None]
         wrench = np.einsum("cij,cj->i", wrenches, forces)
-        return self.ratios((self.response @ wrench).reshape(-1, 6))
+        loads = self.ratios((self.response @ wrench).reshape(-1, 6))
+        return loads + self._local(points, forces) if self.apart else loads
+
+    def _local(self, points: FloatArray, forces: FloatArray) -> FloatArray:
+        """Return the loads by the peaks round contacts, which break a part as they do the whole [1], shape (m,)."""
+        nearest = np.linalg.norm(self.centres - points[:, None], axis=2).argmin(axis=1)
+        pressed = np.bincount(nearest, np.linalg.norm(forces, axis=1), len(self.nodes))
+        return self.evened * pressed[self.bonds].max(axis=1) * self.bending_strength / self.strengths
 
     def peaks(self, points: FloatArray) -> FloatArray:
         """Return the greatest load of any bond by each newton that presses at a point alone and for long [1/N], (c,).
@@ -182,7 +193,7 @@ class BondGraph:
             weakened=self.weakened | tip,
             cracked=self.cracked | broken,
             opened=self.opened | broken,
-            evened=0.0,
+            damaged=True,
         )
         return cracked.without(broken & self.cracked if self.membrane_strength else broken)
 
@@ -205,6 +216,16 @@ class BondGraph:
         chosen = np.zeros(len(self.nodes), dtype=bool)
         chosen[pieces] = True
         return chosen[self.bonds[:, 0]] | chosen[self.bonds[:, 1]]
+
+    def fallen_apart(self, weakening: float) -> BondGraph:
+        """Return it as a part of a shell that has fallen apart, weaker by a factor at the tips of cracks [1].
+
+        The strengths of the whole stand for the peak round a contact. Elsewhere bonds bear what the material does.
+        """
+        if self.apart:
+            return self
+        strengths = self.bending_strength * np.where(self.weakened, weakening, 1.0)
+        return replace(self, strengths=strengths, apart=True)
 
     def joined(self, chosen: BoolArray) -> list[tuple[int, int]]:
         """Return the numbers of the pieces that the ``chosen`` bonds, shape (m,), join."""

@@ -18,6 +18,7 @@ from prolepsis.matter.shells.bond_graph import BondGraph
 from prolepsis.matter.shells.calibration import calibrated_graph
 from prolepsis.matter.shells.cascade import Cascade, Cracking, Pressing, cascade
 from prolepsis.matter.shells.contact import DAMPING_RATIO, ShellContact, closing_speed, shares_before
+from prolepsis.matter.shells.crushing_front import CrushingFront, come_out, stop
 from prolepsis.matter.shells.dents import ShellDents
 from prolepsis.matter.shells.fragment import Fragment, calm_force
 from prolepsis.matter.shells.parts import Shell
@@ -121,6 +122,7 @@ class Breaking(Controller):
         self._watched: dict[int, Fragment] = {}
         self._number, self._is_near = -1, False
         self._contact = ShellContact(state, thing, quantities["plateStiffness"], quantities["poleStiffnessRatio"])
+        self.front = CrushingFront()
         self.padding = ShellPadding(thing, quantities, self._contact)
         self._dents = ShellDents(thing, self.padding, self._cracking.bears, quantities.get("shellMembraneStretch", 0.0))
         self._contact.update(state, -1)
@@ -193,7 +195,7 @@ class Breaking(Controller):
             beyond = would_go_in(state, self._number, self._dents.yields, self._dents.deepest) if through else 1.0
             self.pressed_in = max(self.pressed_in, beyond * self._dents.share)
             if through and not self.fragments[0].parts:
-                detached += self._punch(state, through)
+                detached += self._punch(state, through, beyond)
             totals = {} if through else self._contact_totals(state)
         self.force = max(self.force, *totals.values(), 0.0)
         if self.intact:
@@ -308,25 +310,26 @@ class Breaking(Controller):
         self.load = max(self.load, made.worst)
         return made
 
-    def _punch(self, state: Running, points: Sequence[FloatArray]) -> list[Happening]:
-        """Let the pieces at points [m] come loose: they are pressed in farther than the membrane stretches.
-
-        What pressed on them now presses on the rest.
-        """
+    def _punch(self, state: Running, contacts: Sequence[int], beyond: float) -> list[Happening]:
+        """Let the pieces come loose that a crushing front takes along from where contacts press the shell through."""
         fragment = self.fragments[0]
         graph, body = fragment.graph, state.data.body(fragment.body)
-        positions = (np.array(points) - body.xpos) @ body.xmat.reshape(3, 3) + fragment.origin
-        pieces = np.linalg.norm(graph.centres - positions[:, None], axis=2).argmin(axis=1)
+        centres = (graph.centres - fragment.origin) @ body.xmat.reshape(3, 3).T + body.xpos
+        self.front.go_in(state, self._number, contacts, self._dents.yields, (self._dents.deepest, beyond))
+        loose = self.front.loosens(state, centres)
+        for point in state.data.contact.pos[contacts]:
+            loose[np.linalg.norm(centres - point, axis=1).argmin()] = True
+        pieces = np.flatnonzero(loose)
         cracking = graph.round_pieces(pieces) & ~graph.cracked
         cracked = graph.after_breaking(cracking, self._cracking.weakening)
-        parts = cracked.without(cracked.round_pieces(pieces)).fragments()
-        rest = max(parts, key=lambda part: len(part.nodes))
-        pressing = self._pressing(state, body.id, fragment)
-        shares = self._easing(state, pressing)
-        made = self._cascade(rest.assembled(), pressing, shares(1.0), shares)
         self._changed = True
-        fragment.set((*(part for part in parts if part is not rest), *made.parts))
-        return self._detached([*graph.joined(cracking), *made.broken], float((shares(1.0) * pressing.normal).max()))
+        if not self.padding.is_pressed:
+            # What is soft has stopped it otherwise.
+            for contact in contacts:
+                stop(state, self.thing.name, self._number, contact)
+            state.renew_forces()
+        fragment.set(cracked.without(cracked.round_pieces(pieces)).fragments())
+        return self._detached(graph.joined(cracking), self.front.force)
 
     def _pressing(self, state: Running, body: int, fragment: Fragment) -> Pressing:
         """Return what presses on a fragment."""
@@ -364,14 +367,17 @@ class Breaking(Controller):
             groups = [[self.pieces[int(k)] for k in part.nodes] for part in parts]
             if self.intact:
                 self.padding.come_out(state)
+            dented = self._dents.pressing(state) if self.intact else []
             # What is firm inside goes on as a body of its own.
             firm = [[kernel] for kernel in self.kernels] if self.intact else []
             state.split(fragment.body, groups + firm)
             self.intact = False
             for part, group in zip(parts, groups, strict=True):
+                part = part.fallen_apart(self._cracking.weakening)
                 lead = state.scene.things[group[0]].name
                 calm = LIGHT if len(part.bonds) else math.inf
                 new.append(Fragment(body=lead, graph=part, origin=part.centres[0].copy(), calm=calm))
+            come_out(state, groups, dented)
         self.fragments = new
 
     def _near(self, state: Running) -> bool:

@@ -15,6 +15,7 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.log.things import Thing
+from prolepsis.matter.shells.crushing_front import across
 from prolepsis.matter.shells.yielding import ShellPadding
 from prolepsis.scene.running import Running
 
@@ -75,8 +76,8 @@ class Pressed:
     """Sum of the normal forces [N]."""
     greatest: float = -1.0
     """Greatest of them [N]."""
-    point: FloatArray | None = None
-    """Where that is, world frame [m], shape (3,)."""
+    contact: int = -1
+    """Its number, -1 if none presses."""
 
 
 class ShellDents:
@@ -122,8 +123,8 @@ class ShellDents:
             dent = self._dents.setdefault(other, Dent(force=force, stiffness=stiffness))
             dent.force = min(dent.force, force)
 
-    def grow(self, state: Running) -> list[FloatArray]:
-        """Press it in until it bears what presses in the coming substep; return the points where it is through [m].
+    def grow(self, state: Running) -> list[int]:
+        """Press it in until it bears what presses in the coming substep; return the contacts at which it is through.
 
         A dent that nothing is near any more is forgotten.
         """
@@ -144,7 +145,13 @@ class ShellDents:
             state.renew_forces()
             touching = self._touching(state)
         pressed = [touching[other] for other, dent in self._dents.items() if dent.depth >= self.deepest]
-        return [touch.point for touch in pressed if touch.point is not None]
+        return [touch.contact for touch in pressed if touch.contact >= 0]
+
+    def pressing(self, state: Running) -> list[tuple[int, FloatArray]]:
+        """Return what presses a dent, each a thing by its index with the direction in which it does so, shape (3,)."""
+        touching, geom = self._touching(state), int(state.model.geom(self._geom).id)
+        contacts = [touching[other].contact for other in self._dents if other in touching]
+        return [across(state, geom, contact) for contact in contacts if contact >= 0]
 
     def shares(self, state: Running, contacts: IntArray, normal: FloatArray, relief: float | None = None) -> FloatArray:
         """Return which share of their normal forces [N] contacts, given by their numbers, really exert [1], shape (c,).
@@ -181,7 +188,7 @@ class ShellDents:
             force = float(data.efc_force[row]) if row >= 0 else 0.0
             touch.force += force
             if force > touch.greatest:
-                touch.greatest, touch.point = force, data.contact.pos[contact].copy()
+                touch.greatest, touch.contact = force, contact
         return found
 
     def _other(self, state: Running, contact: int) -> str:

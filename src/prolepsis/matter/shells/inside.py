@@ -17,6 +17,7 @@ from prolepsis.geometry.rotations import matrix
 from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.log.happenings import detachment
 from prolepsis.log.log import FREE
+from prolepsis.matter.shells.crushing_front import CrushingFront
 from prolepsis.matter.shells.parts import Membraned
 from prolepsis.matter.shells.yielding import ShellPadding
 from prolepsis.scene.kind import Controller
@@ -71,9 +72,10 @@ WOBBLE = 40.0
 class Membrane(Controller):
     """The controller of one yolk."""
 
-    def __init__(self, state: Running, stuff: Membraned) -> None:
-        """Look after the particles of a stuff."""
+    def __init__(self, state: Running, stuff: Membraned, front: CrushingFront) -> None:
+        """Look after the particles of a stuff, which edges of its shell pierce where a ``front`` reaches it."""
         assert state.particles is not None
+        self._front: CrushingFront | None = front
         self._name = stuff.name
         self._index = state.scene.index(stuff.name)
         own = np.flatnonzero(state.particles.stuff == self._index)
@@ -95,6 +97,10 @@ class Membrane(Controller):
         if self.broken or particles is None or particles.holder[self._first] != FREE:
             return
         positions = particles.position[self._own].copy()
+        front, self._front = self._front, None
+        if front and front.pierces(state, positions, particles.spacing / 2):
+            self._tear(state, front.force)
+            return
         if np.array_equal(positions, self._positions):
             # A step of the liquid takes several ticks.
             particles.velocity[self._own] += self._push
@@ -107,12 +113,15 @@ class Membrane(Controller):
         volume = float(particles.volume[self._own].sum())
         self.tension = force / (2 * math.pi * (3 * volume / (4 * math.pi)) ** (1 / 3))
         if self.tension > self.strength:
-            self.broken = True
-            state.set_attribute(self._name, "broken", 1.0)
-            state.report(detachment(self._index, self._index, self._index, force))
+            self._tear(state, force)
             return
         self._positions, self._push = positions, MAX_STEP * pull
         particles.velocity[self._own] += self._push
+
+    def _tear(self, state: Running, force: float) -> None:
+        self.broken = True
+        state.set_attribute(self._name, "broken", 1.0)
+        state.report(detachment(self._index, self._index, self._index, force))
 
 
 def _best_rotation(rest: FloatArray, now: FloatArray) -> FloatArray:

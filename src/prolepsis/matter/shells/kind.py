@@ -114,6 +114,7 @@ class Shells(Kind):
     def start(self, state: Running) -> Sequence[Controller]:
         """Return its controllers in one run."""
         from prolepsis.matter.shells.breaking import Breaking
+        from prolepsis.matter.shells.crushing_front import CrushingFront
         from prolepsis.matter.shells.inside import Membrane, Opening
 
         shells, particles = state.scene.each(Shell), state.particles
@@ -121,7 +122,12 @@ class Shells(Kind):
         if particles is None:
             return breaking
         opening = [Opening(state, each.thing.name, each.padding) for each in breaking if particles.holds(each.index)]
-        return [*breaking, *opening, *(Membrane(state, stuff) for stuff in state.scene.each(Membraned))]
+        fronts = {each.index: each.front for each in breaking}
+        membranes: list[Membrane] = []
+        for stuff in state.scene.each(Membraned):
+            own = particles.stuff == state.scene.index(stuff.name)
+            membranes.append(Membrane(state, stuff, fronts.get(int(particles.holder[own][0]), CrushingFront())))
+        return [*breaking, *opening, *membranes]
 
 
 def _refuse_strength(kb: KnowledgeBase, name: str, breaking: Sequence[str]) -> None:

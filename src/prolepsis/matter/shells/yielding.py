@@ -63,6 +63,11 @@ class ShellPadding:
         """Return whether there is any."""
         return bool(self._padded)
 
+    @property
+    def is_pressed(self) -> bool:
+        """Whether the shell presses on something soft now."""
+        return any(each.depth > 0.0 for each in self._padded.values())
+
     def bind(self, state: Running) -> None:
         """Look up in a model that is new which contacts are with something soft."""
         known, model = {each.name: each for each in self._padded.values()}, state.model
