@@ -6,10 +6,13 @@ import numpy as np
 import pytest
 from tests.comparing import Compare
 from tests.matter.test_breaking import BEARS, GIRDLE, MASS, POLE, STRETCH, came_of, fallen, opening_speed
+from tests.scenes import EGG_IN_HAND, falling_egg, run
 
 from prolepsis.geometry.rotations import matrix
-from prolepsis.matter.shells.crushing_front import front_growth
+from prolepsis.matter.shells.breaking import Breaking
+from prolepsis.matter.shells.crushing_front import across, front_growth
 from prolepsis.matter.shells.cutting import ellipsoid_shell
+from prolepsis.scene.running import Running
 
 SEMI_AXES = (0.0285, 0.022, 0.022)
 THICKNESS = 3.5e-4
@@ -55,3 +58,23 @@ def test_what_comes_loose_is_not_within_what_has_pressed_it_in() -> None:
             lowest.append(float((corners @ matrix(pose[3:]).T + pose[:3])[:, 2].min()))
     # One was 2 mm deep. The thin edges of others may come some tenths in within a tick.
     assert min(lowest) > -5e-4
+
+
+def test_what_is_behind_a_front_is_a_weight_or_what_a_motor_gives(monkeypatch: pytest.MonkeyPatch) -> None:
+    driven: dict[str, float] = {}
+    usual = Breaking.end_tick
+
+    def told(breaking: Breaking, state: Running) -> None:
+        usual(breaking, state)
+        geom = int(state.model.geom("egg1/0").id)
+        for contact, *_ in state.normal_forces():
+            other, _ = across(state, geom, contact)
+            driven[state.scene.things[other].name] = max(
+                state.driving_force(each, contact) for each in state.touching()[contact]
+            )
+
+    monkeypatch.setattr(Breaking, "end_tick", told)
+    run(falling_egg(-1e-6), duration=0.5)
+    assert driven["floor"] == pytest.approx(MASS * 9.81, rel=0.01)
+    run(EGG_IN_HAND, "close(hand1, 20)", duration=1.4)
+    assert driven["hand1/left_finger"] == pytest.approx(20.0, rel=0.1)

@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
+from prolepsis.engine.driving import driving_force
 from prolepsis.engine.joining import Joining
 from prolepsis.engine.pushing import Pushes
 from prolepsis.engine.reporting import check_attribute, check_happening
 from prolepsis.engine.softening import Softening
+from prolepsis.engine.whereabouts import carrier_of
 from prolepsis.engine.world import MOST_FRICTION, World, add_geom, priority_of
 from prolepsis.geometry.rotations import compose_pose, inverse, relative_pose, rotated
 from prolepsis.geometry.shape import FloatArray, IntArray, Quaternion, Triple, quaternion, triple
 from prolepsis.log.happenings import Happening
-from prolepsis.log.things import Thing
 from prolepsis.scene.particles import ParticleState
 from prolepsis.scene.running import ContactForces, PointJoint
 from prolepsis.scene.scene import Scene
@@ -83,7 +84,7 @@ class State:
         model = spec.compile()
         carrier = np.full(len(things), -1)
         for i in range(len(things)):
-            carrier[i] = _carrier(things, index, i)
+            carrier[i] = carrier_of(things, index, i)
         state = cls(
             world=world,
             seed=seed,
@@ -224,6 +225,10 @@ class State:
             self._pairs_at = (self.version, self.data.time)
             self._pairs = self.data.contact.geom.tolist()
         return self._pairs
+
+    def driving_force(self, geom: int, contact: int) -> float:
+        """Return the force with which the body of a geom is driven on to what it touches at a contact [N]."""
+        return driving_force(self.model, self.data, geom, contact)
 
     def _listed_forces(self) -> list[tuple[int, int, int, float]]:
         data, contact = self.data, self.data.contact
@@ -387,14 +392,3 @@ class State:
                 now.solref[:], now.solimp[:], now.margin[:] = contacts[known.name]
         self.version += 1
         self.refresh()
-
-
-def _carrier(things: Sequence[Thing], index: Mapping[str, int], i: int) -> int:
-    k = i
-    while True:
-        if things[k].is_body:
-            return k
-        whole = things[k].whole
-        if whole is None:
-            return -1
-        k = index[whole]

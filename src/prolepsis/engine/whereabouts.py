@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 
 from prolepsis.geometry.rotations import matrix
@@ -50,3 +52,15 @@ def _parts(things: tuple[Thing, ...], whole: str) -> list[Thing]:
     """Return all that has no parts and belongs to a whole, at any depth."""
     direct = [part for part in things if part.whole == whole]
     return [leaf for part in direct for leaf in (_parts(things, part.name) or [part])]
+
+
+def carrier_of(things: Sequence[Thing], index: Mapping[str, int], i: int) -> int:
+    """Return the rigid body that carries thing ``i`` at the start, by its index, or -1."""
+    k = i
+    while True:
+        if things[k].is_body:
+            return k
+        whole = things[k].whole
+        if whole is None:
+            return -1
+        k = index[whole]

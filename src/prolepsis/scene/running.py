@@ -142,6 +142,10 @@ class Running(Protocol):
         """Return both geoms of each contact of the last substep, active or not."""
         ...
 
+    def driving_force(self, geom: int, contact: int) -> float:
+        """Return the force with which the body of a geom is driven on to what it touches at a contact [N]."""
+        ...
+
     def pressing(self, first: str, second: str) -> float:
         """Return the normal force between two wholes, their parts included, at the last substep [N]."""
         ...

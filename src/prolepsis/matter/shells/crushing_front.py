@@ -13,7 +13,6 @@ import numpy as np
 
 from prolepsis.geometry.rotations import matrix
 from prolepsis.geometry.shape import BoolArray, FloatArray
-from prolepsis.matter.shells.reach import driving_force
 from prolepsis.scene.nearby import distance_to
 from prolepsis.scene.running import Running
 
@@ -54,7 +53,7 @@ class CrushingFront:
         blow = front_growth(depth[1])
         for contact in contacts:
             # It comes to rest where the energy is spent, and not before it bears what is behind it.
-            growth = max(blow, (driving_force(state, geom, contact) / force) ** 2)
+            growth = max(blow, (_driven(state, contact) / force) ** 2)
             self.force = max(self.force, force * growth**0.5)
             # How deep what touches it is in the shell by now is the zero from which the front is deep.
             other, by_now = across(state, geom, contact)[0], float(state.data.contact.dist[contact])
@@ -89,6 +88,11 @@ def across(state: Running, geom: int, contact: int) -> tuple[int, FloatArray]:
     name = state.model.geom(_other(state, geom, contact)).name.rpartition("/")[0]
     sign = 1.0 if state.touching()[contact][1] == geom else -1.0
     return state.scene.index(name), sign * state.data.contact.frame[contact, :3]
+
+
+def _driven(state: Running, contact: int) -> float:
+    """Return the force with which two bodies that touch are driven together [N]."""
+    return max(state.driving_force(each, contact) for each in state.touching()[contact])
 
 
 def _other(state: Running, geom: int, contact: int) -> int:

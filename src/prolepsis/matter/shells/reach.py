@@ -68,26 +68,6 @@ def would_go_in(state: Running, geom: int, force: float, depth: float) -> float:
     return 1 + left / (force * depth)
 
 
-def driving_force(state: Running, geom: int, contact: int) -> float:
-    """Return the force with which a geom and what touches it are driven together, by weight or a motor [N].
-
-    Args:
-        state: The running scene, with the forces of the coming substep.
-        geom: Number of the geom, whose body moves freely.
-        contact: Number of the contact.
-    """
-    model, data = state.model, state.data
-    row, pair = int(data.contact.efc_address[contact]), state.touching()[contact]
-    own, other = (int(model.geom_bodyid[each]) for each in (geom, pair[1] if pair[0] == geom else pair[0]))
-    outward = data.contact.frame[contact, :3] * (1.0 if pair[0] == geom else -1.0)
-    # What both would do without the forces of contact, and the part in that of the free body.
-    together = -float(data.efc_b[row] + data.efc_aref[row])
-    freedom = int(model.body_dofadr[own])
-    alone = float(data.qacc_smooth[freedom : freedom + 3] @ outward)
-    beside = float(model.body_invweight0[other, 0])
-    return max(float(model.body_mass[own]) * alone, (together - alone) / beside if beside else 0.0)
-
-
 def _meetings(state: Running, geom: int) -> Collection[Meeting]:
     model, contact = state.model, state.data.contact
     found: dict[int, Meeting] = {}
