@@ -17,3 +17,9 @@ def test_wet_shell_goes_up_with_the_gripper_and_falls_off_later() -> None:
     )
     assert carried
     assert all("piece" in str(answer["P"]) for answer in carried)
+
+
+def test_a_hand_that_closes_on_pieces_stays_stable() -> None:
+    """In substeps of a millisecond the solver came to no end at a fingertip."""
+    crushed = project(EXAMPLES / "pr2_stick.toml", settings={"Crush": "47 N", "Gentle": "1 N"})
+    assert crushed.ask("holds(crushed(egg1), _)")

@@ -43,6 +43,9 @@ LINGERING = 0.9
 fast is it taken to be for the substep [1]."""
 SHORTEST_STEP = 1.5e-5
 """No substep is shorter than this [s]."""
+SQUEEZED, SQUEEZED_STEP = 1.0, 2.5e-4
+"""What presses more on a fragment than this [N] gets this substep [s]: a hand that closes on pieces of a fifth of a gram
+shoots them away, and in one of a millisecond the solver comes to no end."""
 DAMPED = 0.1
 """Share of the force under which a dent goes in that damping makes at most [1]."""
 LIGHT = 0.2
@@ -120,7 +123,7 @@ class Breaking(Controller):
         self._before: list[tuple[int, int, int, float]] = []
         """Contact forces in the substep before."""
         self._watched: dict[int, Fragment] = {}
-        self._number, self._is_near = -1, False
+        self._number, self._is_near, self._squeezed = -1, False, False
         self._contact = ShellContact(state, thing, quantities["plateStiffness"], quantities["poleStiffnessRatio"])
         self.front = CrushingFront()
         self.padding = ShellPadding(thing, quantities, self._contact)
@@ -142,6 +145,7 @@ class Breaking(Controller):
     def begin_tick(self, state: Running) -> None:
         """Begin to look for the greatest load and force, and bring the contact's stiffness up to date."""
         self._calm = self._steady and self.load < STEADY_LOAD
+        self._squeezed = not self.intact and self.force > SQUEEZED
         self.force, self.load, self._reached = 0.0, 0.0, 0.0
         self._ticks += 1
         self._fresh = self._ticks % LOOK_TICKS == 0
@@ -155,7 +159,7 @@ class Breaking(Controller):
     def longest_step(self, state: Running) -> float:
         """Return the longest substep that it can do with in the coming tick [s]."""
         if not self._is_near:
-            return MAX_STEP
+            return SQUEEZED_STEP if self._squeezed else MAX_STEP
         longer = STEADY_STEP / math.sqrt(self._touches) if self._calm and self._touches else 1.0
         step = self._contact_step * max(longer, 1.0)
         return min(step, max(IMPACT_SHARE * self._give / max(self._fast, 1e-9), SHORTEST_STEP))
