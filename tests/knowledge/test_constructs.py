@@ -77,6 +77,25 @@ def test_what_is_not_read_is_refused_by_name(tmp_path: Path, text: str, named: s
         loaded(tmp_path, text)
 
 
+@pytest.mark.parametrize("word", ["intersectionOf", "unionOf", "oneOf", "members", "disjointUnionOf"])
+@pytest.mark.parametrize(
+    "links",
+    [
+        "rdf:first :Block ; rdf:rest _:l .",
+        "rdf:first :Block ; rdf:rest _:m . _:m rdf:first :Ball ; rdf:rest _:l .",
+        "rdf:first :Block ; rdf:rest :Ball .",
+        "rdf:first :Block .",
+        "rdf:rest () .",
+        "rdf:first :Block , :Ball ; rdf:rest () .",
+        "rdf:first :Block ; rdf:rest () , ( :Ball ) .",
+    ],
+)
+def test_a_list_that_is_none_is_refused_wherever_one_is_read(tmp_path: Path, word: str, links: str) -> None:
+    meant = f":D a owl:Class ; owl:equivalentClass [ owl:{word} _:l ] ." if "Of" in word else f"[] owl:{word} _:l ."
+    with pytest.raises(InputError, match="a list that is written with rdf:first and rdf:rest has no end or no member"):
+        loaded(tmp_path, f"{meant} _:l {links}")
+
+
 @pytest.mark.parametrize(
     "text",
     [

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from rdflib import OWL, RDF, RDFS, XSD, BNode, Literal, URIRef
+from rdflib.collection import Collection
 from rdflib.term import Node
 
 from prolepsis.knowledge.declarations import HAS_UNIT, PRO, is_aligned
@@ -262,15 +263,10 @@ class _File:
             self._refuse_name(subject, word, node)
 
     def _members(self, subject: Node, word: Node, node: Node) -> Iterator[Node]:
-        seen: set[Node] = set()
         graph = self.document.graph
-        while node != RDF.nil:
-            first, rest = list(graph.objects(node, RDF.first)), list(graph.objects(node, RDF.rest))
-            if len(first) != 1 or len(rest) != 1 or node in seen:
-                raise KnowledgeError(f"{self._where(subject)}: {_word(word)} needs a list, ( ... ), of what it is of")
-            seen.add(node)
-            yield first[0]
-            node = rest[0]
+        if node != RDF.nil and (node, RDF.first, None) not in graph:
+            raise KnowledgeError(f"{self._where(subject)}: {_word(word)} needs a list, ( ... ), of what it is of")
+        yield from Collection(graph, node)
 
     def _refuse_name(self, subject: Node, word: Node, node: Node) -> None:
         wanted = _NAMED.get(word)

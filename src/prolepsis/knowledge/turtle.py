@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from rdflib import Graph, URIRef
+from rdflib import RDF, Graph, URIRef
 from rdflib.exceptions import ParserError
 from rdflib.plugins.parsers.notation3 import BadSyntax
 from rdflib.term import Node
@@ -63,7 +63,7 @@ def parse_turtle(source: Source) -> Document:
     """Return the document that is written.
 
     Raises:
-        KnowledgeError: If its syntax is wrong.
+        KnowledgeError: If its syntax is wrong, or a list in it is none.
     """
     path, text = source.path, source.text
     graph = Graph(bind_namespaces="none")
@@ -79,7 +79,25 @@ def parse_turtle(source: Source) -> Document:
         # The parser stumbles over a text that ends, or turns to something else, where it does not look.
         raise KnowledgeError(f"{path}: Turtle syntax: a statement does not end as it must") from error
     lines = first_lines(text if source.numbered else "")
+    _refuse_broken_lists(graph, path)
     return Document(path=path, graph=graph, built_in=source.built_in, lines=lines)
+
+
+def _refuse_broken_lists(graph: Graph, path: Path) -> None:
+    """Refuse a list that does not come to its end, or forks on its way: whoever follows one relies on that."""
+    whole = {RDF.nil}
+    for start in {*graph.subjects(RDF.first), *graph.subjects(RDF.rest)}:
+        node, seen = start, dict[Node, None]()
+        while node not in whole:
+            links = [list(graph.objects(node, word)) for word in (RDF.first, RDF.rest)]
+            if node in seen or any(len(each) != 1 for each in links):
+                raise KnowledgeError(
+                    f"{path}: a list that is written with rdf:first and rdf:rest has no end or no member somewhere; "
+                    "allowed: ( ... ), or one of each and rdf:nil at the end"
+                )
+            seen[node] = None
+            node = links[1][0]
+        whole.update(seen)
 
 
 @cache
