@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from prolepsis.knowledge import KnowledgeBase
-from prolepsis.terms.errors import LONGEST_LINE, InconsistentError, InputError
+from prolepsis.terms.errors import LONGEST_LINE, InconsistentError, InputError, KnowledgeError
 
 PREFIX = "@prefix : <https://w3id.org/prolepsis#> .\n"
 
@@ -99,3 +99,33 @@ def test_a_contradiction_that_has_no_room_says_how_much_more_there_is(tmp_path: 
     with pytest.raises(InconsistentError, match=r"; and \d+ more$") as caught:
         KnowledgeBase.load(path)
     assert len(str(caught.value)) <= LONGEST_LINE and len(caught.value.conflict) > 10
+
+
+BOTH = {
+    "Egg , :Water": "no Shelled is a Stuff",
+    "Block , :Table": "no Block is a Table",
+    "Floor , :Egg": "no Floor is a Shelled",
+    "Egg , :Block": "no Block is a Shelled",
+    "Cup , :Bowl": "no Bowl is a Cup",
+    "Milk , :Honey": "no Honey is a Milk",
+    "Sponge , :Block": "no Block is a Sponge",
+    "PR2 , :Block": "no Block is a Robot",
+    "Gripper , :Beads": "no Gripper is a Stuff",
+    "Batch , :ForceLevel": "no Batch is a ForceLevel",
+}
+
+
+@pytest.mark.parametrize(("classes", "excluded"), BOTH.items(), ids=list(BOTH))
+def test_what_excludes_each_other_contradicts(tmp_path: Path, classes: str, excluded: str) -> None:
+    path = tmp_path / "s.ttl"
+    path.write_text(f"{PREFIX}:b1 a :{classes} .")
+    with pytest.raises(InconsistentError) as caught:
+        KnowledgeBase.load(path)
+    assert excluded in str(caught.value) and "s.ttl:2" in str(caught.value)
+
+
+def test_parts_that_two_classes_give_are_told_with_the_classes(tmp_path: Path) -> None:
+    path = tmp_path / "s.ttl"
+    path.write_text(f"{PREFIX}:b1 a :Egg , :Coconut .")
+    with pytest.raises(KnowledgeError, match=r"s\.ttl:2: b1 is of Coconut and Egg, .*; allowed: one of them"):
+        KnowledgeBase.load(path)

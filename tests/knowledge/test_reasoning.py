@@ -107,7 +107,7 @@ def test_two_defaults_of_which_neither_is_the_more_special_are_refused(tmp_path:
         for name, value in (("Waxed", 0.1), ("Sanded", 0.9))
     )
     base = load(tmp_path, classes + ":b a :Waxed , :Sanded .")
-    with pytest.raises(KnowledgeError, match="Sanded and Waxed give different defaults of friction"):
+    with pytest.raises(KnowledgeError, match=r"\.ttl:\d+: b: Sanded and Waxed give different defaults of friction"):
         base.value("b", "friction")
     stated = load(tmp_path, classes + ":b a :Waxed , :Sanded ; :friction 0.4 .")
     assert stated.quantity("b", "friction") == 0.4

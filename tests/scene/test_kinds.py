@@ -90,6 +90,25 @@ def test_what_two_kinds_claim_is_refused(tmp_path: Path) -> None:
         compose(known, (*known_kinds(), Claiming()), resting_height, 100)
 
 
+class ClaimingLiquid(Kind):
+    """A kind that claims what flows by another one."""
+
+    claims = "Water"
+
+
+def test_what_flows_and_is_claimed_is_refused(tmp_path: Path) -> None:
+    known = load(tmp_path, FLOOR + ":w a :Water ; :on :floor ; :volume '5 ml' .")
+    with pytest.raises(KnowledgeError, match="w .Water. is each of Water, Liquids; allowed: one of them"):
+        compose(known, (*known_kinds(), ClaimingLiquid()), resting_height, 100)
+
+
+@pytest.mark.parametrize("shape", ["", "; :shape :box ; :length 1 ; :width 1 ; :height 1 ; :mass 1"])
+def test_a_stuff_that_nothing_makes_is_refused(tmp_path: Path, shape: str) -> None:
+    known = load(tmp_path, FLOOR + f":s a :Stuff ; :on :floor {shape} .")
+    with pytest.raises(KnowledgeError, match="s .Stuff. is a stuff that nothing tells how to make; allowed: a Liquid"):
+        compose(known, known_kinds(), resting_height, 100)
+
+
 class Ageing(Kind):
     """A kind whose particles age, and which tells when they are a twentieth of a second old."""
 

@@ -85,23 +85,23 @@ def _class_axioms(reader: Reader) -> Iterator[Axiom]:
     for predicate, (functor, words) in _CLASS_PAIRS.items():
         for subject, node in graph.subject_objects(predicate):
             (left, left_reading), (right, right_reading) = reader.expression(subject), reader.expression(node)
-            reading = words.format(left_reading.removeprefix("(").removesuffix(")"), _with_article(right_reading))
+            reading = words.format(left_reading.removeprefix("(").removesuffix(")"), with_article(right_reading))
             yield Axiom(f"{functor}({left} {right})", reading, document.where(subject))
     for subject in sorted({s for word in _MEANINGS for s in graph.subjects(word) if isinstance(s, URIRef)}):
         meaning = reader.connected(subject)
         if meaning is not None:
-            reading = f"{local_name(subject)} means {_with_article(meaning[1])}"
+            reading = f"{local_name(subject)} means {with_article(meaning[1])}"
             yield Axiom(f"EquivalentClasses(<{subject}> {meaning[0]})", reading, document.where(subject))
     for subject, node in graph.subject_objects(OWL.disjointUnionOf):
         parts = reader.listed(node)
         text, said = joined("ObjectUnionOf", " or ", parts)
         name, where = local_name(URIRef(str(subject))), document.where(subject)
-        yield Axiom(f"EquivalentClasses(<{subject}> {text})", f"{name} means {_with_article(said)}", where)
+        yield Axiom(f"EquivalentClasses(<{subject}> {text})", f"{name} means {with_article(said)}", where)
         yield from _apart(parts, where)
     for subject, node in graph.subject_objects(RDF.type):
         if isinstance(subject, URIRef) and isinstance(node, BNode):
             text, reading = reader.expression(node)
-            said = f"{local_name(subject)} is {_with_article(reading)}"
+            said = f"{local_name(subject)} is {with_article(reading)}"
             yield Axiom(f"ClassAssertion({text} <{subject}>)", said, document.where(subject))
     for subject in graph.subjects(RDF.type, OWL.AllDisjointClasses):
         for listed in graph.objects(subject, OWL.members):
@@ -152,7 +152,7 @@ def _property_axioms(reader: Reader) -> Iterator[Axiom]:
             if isinstance(subject, URIRef) and not (is_data_range and isinstance(node, URIRef)):
                 name = local_name(subject)
                 text, reading = reader.region(name, node) if is_data_range else reader.expression(node)
-                said = words.format(name, reading if is_data_range else _with_article(reading))
+                said = words.format(name, reading if is_data_range else with_article(reading))
                 yield Axiom(f"{functor}(<{subject}> {text})", said, document.where(subject))
     for subject, node in graph.subject_objects(OWL.propertyChainAxiom):
         chain = [reader.role(member) for member in Collection(graph, node)]
@@ -194,7 +194,7 @@ def assertions(
     for name, told in situation.classes.items():
         iri, location = situation.iris[name], situation.locations[name]
         for class_name in told:
-            reading = f"{name} is {_with_article(class_name)}"
+            reading = f"{name} is {with_article(class_name)}"
             axioms.append(Axiom(f"ClassAssertion(<{vocabulary.classes[class_name].iri}> <{iri}>)", reading, location))
         for entry_name, own in cells.items():
             default = (
@@ -240,7 +240,8 @@ def told_default(vocabulary: Vocabulary, told: tuple[str, ...], property_name: s
     return (best[0], candidates[best[0]]) if best else None
 
 
-def _with_article(reading: str) -> str:
+def with_article(reading: str) -> str:
+    """Return a reading of a class expression as it stands after "is": ``an Egg``."""
     if reading.startswith("(") or reading.startswith(("not ", "one of ")):
         return reading.removeprefix("(").removesuffix(")") if reading.startswith("(") else reading
     return f"{'an' if reading[0] in 'AEIOU' else 'a'} {reading}"

@@ -185,6 +185,12 @@ def _with_default_parts(situation: Situation, vocabulary: Vocabulary) -> Situati
             missing = [part for part in vocabulary.classes[name].parts if part.unless not in stated]
             stated |= {c for part in missing for c in vocabulary.told_classes((part.kind,))}
             for part, part_name in _named(situation, whole, above, missing, vocabulary):
+                if wholes.get(part_name) == whole:
+                    both = " and ".join(told)
+                    raise KnowledgeError(
+                        f"{locations[whole]}: {whole} is of {both}, which give it different parts called {part_name}; "
+                        "allowed: one of them"
+                    )
                 if part_name in classes:
                     raise KnowledgeError(
                         f"{locations[part_name]}: {part_name} is part of nothing, and {whole} would have a part of "

@@ -301,7 +301,10 @@ class KnowledgeBase:
 
     def default(self, name: str, property_name: str) -> Known | None:
         """Return what its batch has, or the default of the most specific class of ``name``, or None."""
-        found = self.default_of(self.types.classes[name], property_name)
+        try:
+            found = self.default_of(self.types.classes[name], property_name)
+        except KnowledgeError as error:
+            raise KnowledgeError(f"{self.situation.locations[name]}: {name}: {error}") from None
         if found is None:
             return None
         class_name, default = found

@@ -12,10 +12,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from importlib.metadata import version
 
-from rdflib import OWL, RDF
+from rdflib import OWL, RDF, URIRef
 
 from prolepsis.knowledge.alike import alike, counts_along_chains
-from prolepsis.knowledge.axioms import Axiom, assertions, terminology
+from prolepsis.knowledge.axioms import Axiom, assertions, terminology, with_article
 from prolepsis.knowledge.chaining import MOST_STEPS, Chaining, StepsError, chain, clashes, clashing, is_whole
 from prolepsis.knowledge.conflict import smallest_conflict
 from prolepsis.knowledge.inferred import Types
@@ -24,7 +24,7 @@ from prolepsis.knowledge.reasoner import Budget, is_consistent
 from prolepsis.knowledge.situation import Situation
 from prolepsis.knowledge.sources import ONTOLOGY_FOLDER
 from prolepsis.knowledge.time_limit import LIMIT_VARIABLE
-from prolepsis.knowledge.turtle import Document
+from prolepsis.knowledge.turtle import Document, local_name
 from prolepsis.knowledge.vocabulary import Vocabulary
 from prolepsis.terms.errors import LONGEST_LINE, InconsistentError, UndecidedError, error_line
 
@@ -286,8 +286,8 @@ def entailed_probes(
 def contradiction(axioms: tuple[Axiom, ...]) -> InconsistentError:
     """Return the error for axioms that contradict each other: the few that do, as a person would say them.
 
-    Where the line has no room for all and their files, those of a user's own files come first, by the files' names,
-    and the ontology's without theirs.
+    Those of a user's own files come first; where the line has no room for all and their files, these are told by their
+    names, and the ontology's are not.
     """
     told = "the knowledge base contradicts itself: "
     try:
@@ -297,16 +297,29 @@ def contradiction(axioms: tuple[Axiom, ...]) -> InconsistentError:
         return InconsistentError(f"{told}{why}")
     if not found:
         return InconsistentError(f"{told}two names are given to one thing")
+    own, built_in = ([axiom for axiom in found if _is_built_in(axiom) == whose] for whose in (False, True))
+    found = tuple(_two_of_many(axiom, found) for axiom in (*own, *built_in))
     whole = tuple(f"{axiom.reading} ({axiom.where})" for axiom in found)
     line = f"{told}{'; '.join(whole)}"
     if len(line) <= LONGEST_LINE:
         return InconsistentError(line, whole)
-    own = [f"{axiom.reading} ({axiom.where.rpartition('/')[2]})" for axiom in found if not _is_built_in(axiom)]
-    texts = [*own, *(axiom.reading for axiom in found if _is_built_in(axiom))]
+    shown = [f"{axiom.reading} ({axiom.where.rpartition('/')[2]})" for axiom in found[: len(own)]]
+    texts = [*shown, *(axiom.reading for axiom in found[len(own) :])]
     kept = len(texts)
     while kept > 1 and len(line := _few(told, texts, kept)) > LONGEST_LINE:
         kept -= 1
     return InconsistentError(error_line(line), whole)
+
+
+def _two_of_many(axiom: Axiom, found: tuple[Axiom, ...]) -> Axiom:
+    """Return of many classes that exclude each other only the two about which the other axioms speak."""
+    told, _, classes = axiom.text.partition("(")
+    others = {token for other in found if other is not axiom for token in _TOKEN.findall(other.text)}
+    both = [name for name in _TOKEN.findall(classes) if name in others]
+    if told != "DisjointClasses" or len(both) != 2:
+        return axiom
+    one, other = (local_name(URIRef(name[1:-1])) for name in both)
+    return replace(axiom, reading=f"no {one} is {with_article(other)}")
 
 
 def _few(told: str, texts: list[str], kept: int) -> str:

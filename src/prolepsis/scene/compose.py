@@ -32,6 +32,10 @@ ROLES = frozenset({"Container", "Stuff", "Liquid", "Furniture", "Floor", "Table"
 FEATURES = ("lid",)
 """What a shape may have or not."""
 MESH_SHAPE = "mesh"
+OF_TABLES = "table"
+"""The family of shapes that a box is of when it is a Table."""
+STATED = (*(shape for shape in SHAPES if shape != OF_TABLES), MESH_SHAPE)
+"""Shapes that may be stated of any whole."""
 
 
 @one_thread()
@@ -52,8 +56,12 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
     kinds = sorted(kinds, key=lambda kind: kind.order)
     _refuse_misspelt(kb, kinds)
     begins = {each.name: each.begins for kind in kinds for each in kind.channels if each.begins is not None}
-    flowing = {name for kind in kinds for name in kind.flowing(kb)}
+    flowing: dict[str, list[Kind]] = {}
+    for kind in kinds:
+        for name in kind.flowing(kb):
+            flowing.setdefault(name, []).append(kind)
     names = [name for name in kb.objects if kb.whole(name) is None]
+    owners = {name: _owner(kb, name, kinds, flowing.get(name, ())) for name in names}
     wholes = [name for name in names if name not in flowing]
     refuse_nonsense(kb, wholes)
     for kind in kinds:
@@ -68,7 +76,6 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
         solid=lambda name: thing_of(name, ()),
         attributes=partial(_attributes, kb, begins),
     )
-    owners = {name: _owner(kb, name, kinds) for name in wholes}
     below = _hosts(kb, wholes)
     made: dict[str, Made] = {}
     for name in [name for name in wholes if not owners[name].rests]:
@@ -167,14 +174,15 @@ def _with_volumes(domain: Domain, flowing: Sequence[Thing]) -> Domain:
     return replace(domain, values=tuple(values)) if other else domain
 
 
-def _owner(kb: KnowledgeBase, name: str, kinds: Sequence[Kind]) -> Kind:
-    """Return the kind that makes a whole; one that nobody claims stays as it is."""
+def _owner(kb: KnowledgeBase, name: str, kinds: Sequence[Kind], flowing: Sequence[Kind]) -> Kind:
+    """Return the kind that makes a whole; one that nobody claims stays as it is, or flows."""
     claiming = [kind for kind in kinds if kind.claims is not None and kb.is_a(name, kind.claims)]
-    if len(claiming) > 1:
-        classes = brief_list(str(kind.claims) for kind in claiming)
-        raise KnowledgeError(
-            f"{kb.location(name)}: {name} ({kb.kind(name)}) is each of {classes}; allowed: one of them"
-        )
+    where = f"{kb.location(name)}: {name} ({kb.kind(name)})"
+    if len(claiming) + len(flowing) > 1:
+        makers = brief_list([*(str(kind.claims) for kind in claiming), *(type(kind).__name__ for kind in flowing)])
+        raise KnowledgeError(f"{where} is each of {makers}; allowed: one of them")
+    if kb.is_a(name, "Stuff") and not flowing:
+        raise KnowledgeError(f"{where} is a stuff that nothing tells how to make; allowed: a Liquid or a Granular")
     return claiming[0] if claiming else Kind()
 
 
@@ -227,10 +235,10 @@ def _thing(
     Raises:
         KnowledgeError: If it cannot be simulated.
     """
-    known = kb.quantities(name)
+    known, kind = kb.quantities(name), kb.kind(name)
+    where = f"{kb.location(name)}: {name} ({kind})"
     if "shape" not in known:
-        raise KnowledgeError(f"{name} ({kb.kind(name)}) has no shape; state :shape, one of {', '.join(SHAPES)}")
-    kind = kb.kind(name)
+        raise KnowledgeError(f"{where} has no shape; state :shape, one of {', '.join(STATED)}")
     shape = str(known["shape"].value)
     quantities = {p: float(k.value) for p, k in known.items() if isinstance(k.value, float)}
     quantities |= {feature: 1.0 for feature in FEATURES if feature in known and known[feature].value == "true"}
@@ -238,7 +246,7 @@ def _thing(
     fixed = kb.is_a(name, "Furniture")
     built = Shape() if later is None or shape in later else _built(kb, name, shape, quantities)
     if not fixed and built.geoms and "mass" not in quantities:
-        raise KnowledgeError(f"{name} ({kind}) has no mass and no density to derive it from")
+        raise KnowledgeError(f"{where} has no mass and no density to derive it from")
     default_height = 0.0
     if fixed and built.geoms and built.geoms[0].type != "plane":
         default_height = quantities.get("height", 0.0) / 2
@@ -258,23 +266,24 @@ def _thing(
 
 def _built(kb: KnowledgeBase, name: str, shape: str, quantities: dict[str, float]) -> Shape:
     """Return the shape of a whole in its own frame."""
+    where = f"{kb.location(name)}: {name} ({kb.kind(name)})"
     if shape == MESH_SHAPE:
         file = kb.text(name, "file")
         if file is None:
-            raise KnowledgeError(f"{name} ({kb.kind(name)}) is a mesh but has no file")
+            raise KnowledgeError(f"{where} is a mesh but has no file")
         refuse_holes(quantities, "a mesh")
         _refuse_unasked(kb, name, shape, {"scale"})
         return mesh(Path(file), quantities.get("scale", 1.0))
     if shape not in SHAPES:
-        raise KnowledgeError(f"{name}: shape {shape} cannot be built; known: {', '.join((*SHAPES, MESH_SHAPE))}")
-    family = "table" if kb.is_a(name, "Table") and shape == "box" else shape
+        raise KnowledgeError(f"{where} has a shape that cannot be built here, {shape}; allowed: {', '.join(STATED)}")
+    family = OF_TABLES if kb.is_a(name, "Table") and shape == "box" else shape
     extents = Extents(quantities)
     try:
         built = SHAPES[family](extents)
     except KeyError as missing:
-        raise KnowledgeError(f"{name} ({kb.kind(name)}) is a {shape} but has no {missing.args[0]}") from None
+        raise KnowledgeError(f"{where} is of shape {shape}, but has no {missing.args[0]}; state it") from None
     except KnowledgeError as error:
-        raise KnowledgeError(f"{name} ({kb.kind(name)}): {error}") from None
+        raise KnowledgeError(f"{where}: {error}") from None
     _refuse_unasked(kb, name, family, extents.asked)
     return built
 
