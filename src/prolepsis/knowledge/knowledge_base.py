@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from prolepsis.knowledge.batches import refuse_idle_batches
 from prolepsis.knowledge.deriving import derive, masses_of
 from prolepsis.knowledge.describing import describe
 from prolepsis.knowledge.drawing import draw
@@ -57,13 +58,14 @@ class KnowledgeBase:
         return base
 
     def _refuse_impossible_values(self) -> None:
-        """Refuse masses that contradict each other, and values out of the limits of a class."""
+        """Refuse masses that contradict each other, values out of the limits of a class, and idle ones of a batch."""
 
         def where(name: str, property_name: str = "mass") -> str:
             stated = self.situation.said.get((name, property_name))
             return stated[0].where if stated else self.situation.locations[name]
 
         masses_of(self).refuse(where)
+        refuse_idle_batches(self)
         for name in self.individuals:
             for limit in (limit for c in self.types.classes[name] for limit in self.vocabulary.classes[c].limits):
                 value = self.number(name, limit.name)
