@@ -129,3 +129,41 @@ def test_parts_that_two_classes_give_are_told_with_the_classes(tmp_path: Path) -
     path.write_text(f"{PREFIX}:b1 a :Egg , :Coconut .")
     with pytest.raises(KnowledgeError, match=r"s\.ttl:2: b1 is of Coconut and Egg, .*; allowed: one of them"):
         KnowledgeBase.load(path)
+
+
+BROKEN = (
+    "root:x:0:0:secret",
+    "secret",
+    ":egg1 a secret:Egg .",
+    ":egg1 a :Egg ; :mass secret .",
+    ':egg1 a :Egg ; :colour "secret',
+    "<secret",
+    ':egg1 a :Egg ; :mass "\\secret" .',
+    "@prefix secret",
+)
+
+
+@pytest.mark.parametrize("text", BROKEN)
+@pytest.mark.parametrize("name", ["shadow", "key.pem", "s.toml"])
+def test_what_another_file_than_one_of_turtle_says_is_not_shown(tmp_path: Path, name: str, text: str) -> None:
+    path = tmp_path / name
+    path.write_text(PREFIX + text)
+    with pytest.raises(KnowledgeError, match=f"{name}.*: Turtle syntax: ") as caught:
+        KnowledgeBase.load(path)
+    assert "secret" not in str(caught.value)
+
+
+def test_of_a_turtle_file_the_word_is_shown_at_which_it_goes_wrong(tmp_path: Path) -> None:
+    path = tmp_path / "s.ttl"
+    path.write_text(f"{PREFIX}:egg1 a :Egg\n:floor a :Floor .")
+    with pytest.raises(KnowledgeError, match=r"s\.ttl:\d: Turtle syntax: .* at ':floor'$"):
+        KnowledgeBase.load(path)
+    path.write_text(":egg1 a :Egg .")
+    with pytest.raises(KnowledgeError, match=r"not bound .write '@prefix : <https://w3id.org/prolepsis#> .' before"):
+        KnowledgeBase.load(path)
+
+
+def test_a_byte_order_mark_is_no_text(tmp_path: Path) -> None:
+    path = tmp_path / "s.ttl"
+    path.write_text(f"{PREFIX}:egg1 a :Egg .", encoding="utf-8-sig")
+    assert "egg1" in KnowledgeBase.load(path).objects

@@ -14,11 +14,18 @@ from rdflib.exceptions import ParserError
 from rdflib.plugins.parsers.notation3 import BadSyntax
 from rdflib.term import Node
 
-from prolepsis.knowledge.sources import Source, built_in_sources
+from prolepsis.knowledge.sources import NAMESPACE, Source, built_in_sources
 from prolepsis.terms.errors import KnowledgeError, brief
 
 # Its warnings about literals come with tracebacks; what matters of them is told where a value is read.
 logging.getLogger("rdflib").addHandler(logging.NullHandler())
+
+SUFFIXES = (".ttl", ".turtle")
+"""How the names of Turtle files end."""
+NOT_SHOWN = (
+    f"this is no statement of Turtle (what it says is only shown of a file that ends in {' or '.join(SUFFIXES)})"
+)
+_NO_PREFIX = 'Prefix ":" not bound'
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -70,11 +77,12 @@ def parse_turtle(source: Source) -> Document:
     try:
         graph.parse(data=text, format="turtle", publicID=path.absolute().as_uri())
     except BadSyntax as error:
-        raise KnowledgeError(f"{path}:{error.lines + 1}: Turtle syntax: {_reason(error)}") from error
+        raise KnowledgeError(f"{path}:{error.lines + 1}: Turtle syntax: {_reason(error, path)}") from error
     except RecursionError as error:
         raise KnowledgeError(f"{path}: Turtle syntax: blank nodes or lists are nested too deeply") from error
     except (ParserError, ValueError) as error:
-        raise KnowledgeError(f"{path}: Turtle syntax: {brief(error, 200)}") from error
+        shown = brief(error, 200) if _is_shown(path) else NOT_SHOWN
+        raise KnowledgeError(f"{path}: Turtle syntax: {shown}") from error
     except (LookupError, AttributeError, TypeError, AssertionError, ArithmeticError) as error:
         # The parser stumbles over a text that ends, or turns to something else, where it does not look.
         raise KnowledgeError(f"{path}: Turtle syntax: a statement does not end as it must") from error
@@ -85,7 +93,7 @@ def parse_turtle(source: Source) -> Document:
 
 def _refuse_broken_lists(graph: Graph, path: Path) -> None:
     """Refuse a list that does not come to its end, or forks on its way: whoever follows one relies on that."""
-    whole = {RDF.nil}
+    whole: set[Node] = {RDF.nil}
     for start in {*graph.subjects(RDF.first), *graph.subjects(RDF.rest)}:
         node, seen = start, dict[Node, None]()
         while node not in whole:
@@ -106,8 +114,16 @@ def built_in_documents() -> tuple[Document, ...]:
     return tuple(map(parse_turtle, built_in_sources()))
 
 
-def _reason(error: BadSyntax) -> str:
+def _is_shown(path: Path) -> bool:
+    """Return whether a message may repeat what a file says: another file may be one that was not meant to be shown."""
+    return path.suffix.lower() in SUFFIXES
+
+
+def _reason(error: BadSyntax, path: Path) -> str:
+    if not _is_shown(path):
+        return NOT_SHOWN
     rest = error._str.decode()[error._i :].split("\n", 1)[0].strip()  # pyright: ignore[reportPrivateUsage]
     why = brief(error._why)  # pyright: ignore[reportPrivateUsage]
-    # One word: the file may be one that was not meant to be shown.
+    if why == _NO_PREFIX:
+        why += f" (write '@prefix : <{NAMESPACE}> .' before)"
     return f"{why} at {brief(repr(rest.split()[0]), 24)}" if rest else why

@@ -74,7 +74,7 @@ def read_bytes(path: Path, what: str, *, most: int, error: type[InputError], cal
 
 
 def read_text(path: Path, what: str, *, most: int, error: type[InputError], called: str = "") -> str:
-    """Return the text in the file at ``path``; the arguments are those of ``read_bytes``."""
+    """Return the text in the file at ``path``, without a byte order mark; the arguments are those of ``read_bytes``."""
     called = brief(called or path, _LONGEST)
     try:
         str(path).encode("utf-8")
@@ -82,6 +82,6 @@ def read_text(path: Path, what: str, *, most: int, error: type[InputError], call
         raise error(f"{called}: the name of the {what} is not UTF-8 text; rename it") from None
     content = read_bytes(path, what, most=most, error=error, called=called)
     try:
-        return content.decode("utf-8")
+        return content.decode("utf-8").removeprefix("\ufeff")
     except UnicodeDecodeError as problem:
-        raise error(f"{called}: the {what} is not UTF-8 text at byte {problem.start}") from problem
+        raise error(f"{called}: the {what} is not UTF-8 text at byte {problem.start}; save it as UTF-8") from problem
