@@ -42,7 +42,7 @@ def refusal(folder: Path, text: str) -> str:
             LENGTH,
             "0.03",
             "-0.03",
-            "s.ttl:4: the default length of Q: length = -0.03: must be finite and greater than 0",
+            "s.ttl:4: the default length of Q: length = -0.03: must be finite and at least 1e-05",
         ),
         (LENGTH, "0.03", "'3 kg'", "unit 'kg' does not fit"),
         (LENGTH, ":value 0.03 ;", "", "s.ttl:4: the default length of Q has no :value"),

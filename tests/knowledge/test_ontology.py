@@ -118,7 +118,7 @@ def test_an_egg_shell_is_described_with_its_defaults_sources_and_superclasses(ba
 
 def test_properties_and_individuals_are_described(base: KnowledgeBase) -> None:
     assert "  unit: deg (SI rad)" in base.describe("pitch")
-    assert "  values: greater than 0 and at most 100000 kg" in base.describe("mass")
+    assert "  values: at least 1e-09 and at most 100000 kg" in base.describe("mass")
     assert any(line.startswith("  force = 15 N (asserted: ") for line in base.describe("force7"))
     assert base.describe("Hand")[0].startswith("Hand: defined class.")
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from prolepsis.geometry.rotations import inverse, product, rotated
 from prolepsis.geometry.shape import IDENTITY, Quaternion, Triple, triple
 from prolepsis.geometry.solids import matter_of
 from prolepsis.log.things import Thing, falling_apart, friction_of
+from prolepsis.scene.extent import extent_along
 from prolepsis.scene.running import MAX_STEP
 from prolepsis.scene.scene import Scene
 from prolepsis.system.mujoco import mujoco
@@ -37,6 +38,10 @@ SPINNING_FRICTION = 1.0e-3
 """Resistance to spinning on the spot, as a length [m]."""
 MOST_MOVING, MOST_SOLIDS = 2000, 20_000
 """Things that move and solids of a scene: MuJoCo sets aside 1.6 kB for each pair of things, 6 GB for so many."""
+
+LEAST_INERTIA = 1.0e-14
+"""Least moment of inertia of an ellipsoid with the mass and extents of a thing [kg m2]: MuJoCo builds none of less than
+1e-15, and a wedge has a third of an ellipsoid's."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -71,6 +76,7 @@ def compile_world(scene: Scene) -> World:
             simulated.
     """
     _refuse_many(scene)
+    _refuse_slight(scene)
     spec = mujoco.MjSpec()
     spec.modelname = "prolepsis"
     spec.compiler.degree = False
@@ -98,7 +104,10 @@ def compile_world(scene: Scene) -> World:
     try:
         model = spec.compile()
     except ValueError as error:
-        raise KnowledgeError(f"the world cannot be built: {' '.join(str(error).split())}") from None
+        what, _, element = " ".join(str(error).split()).removeprefix("Error: ").partition(" Element name ")
+        name = element.partition(",")[0].strip("'").partition("/")[0]
+        of = f" of {name}" if name else ""
+        raise KnowledgeError(f"the world cannot be built: MuJoCo says{of}: {what}") from None
     world = World(scene=scene, spec=spec, model=model, grippiest=making.grippiest, posture=start)
     _refuse_overlaps(scene, model, world.start(model))
     return world
@@ -112,6 +121,20 @@ def _refuse_many(scene: Scene) -> None:
         if count > most:
             raise KnowledgeError(
                 f"the scene has {count} {what}; allowed: {most}, since what MuJoCo needs grows with the square"
+            )
+
+
+def _refuse_slight(scene: Scene) -> None:
+    """Refuse things that are so small or light that MuJoCo builds no body of them."""
+    for thing in scene.things:
+        if thing.fixed or not thing.shape.geoms:
+            continue
+        extents = sorted(extent_along(replace(thing, orientation=IDENTITY), axis) for axis in np.eye(3))
+        if 0.0 < (inertia := thing.mass * (extents[0] ** 2 + extents[1] ** 2) / 20) < LEAST_INERTIA:
+            raise KnowledgeError(
+                f"{thing.whole or thing.name} is too small or light: {thing.name} of {thing.mass:.3g} kg and "
+                f"{' x '.join(f'{1000 * each:.3g}' for each in extents)} mm has a moment of inertia of {inertia:.2g} "
+                f"kg m2; allowed: at least {LEAST_INERTIA:g}, a tenth of that of a cube of water of 1 mm"
             )
 
 

@@ -88,7 +88,7 @@ def cup(q: Mapping[str, float]) -> Vessel:
         KeyError: If an extent is missing.
     """
     r, h, t = q["radius"], q["height"], q["thickness"]
-    _refuse_thick(t, min(r, h), "radius and height")
+    refuse_thick(t, min(r, h), "radius and height")
 
     def at(height: float) -> tuple[Point, Point]:
         return (r - t, height), (r, height)
@@ -109,7 +109,7 @@ def bowl(q: Mapping[str, float]) -> Vessel:
         KeyError: If an extent is missing.
     """
     r, h, t = q["radius"], q["height"], q["thickness"]
-    _refuse_thick(t, min(r, h) / 2, "half its radius and height")
+    refuse_thick(t, min(r, h) / 2, "half its radius and height")
     sphere = (r * r + h * h) / (2 * h)
     foot, middle = FOOT * r, sphere - t / 2
 
@@ -132,7 +132,12 @@ def bowl(q: Mapping[str, float]) -> Vessel:
     )
 
 
-def _refuse_thick(thickness: float, limit: float, what: str) -> None:
+def refuse_thick(thickness: float, limit: float, what: str) -> None:
+    """Refuse a wall that fills what it should surround [m].
+
+    Raises:
+        KnowledgeError: With what is allowed.
+    """
     if not thickness < limit:
         raise KnowledgeError(f"thickness {thickness:g} m leaves no cavity; allowed: less than {what}, here {limit:g} m")
 

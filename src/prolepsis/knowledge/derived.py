@@ -39,9 +39,9 @@ def volume(shape: str, get: Get, file: Callable[[], str | None] = lambda: None) 
         return math.pi * radius**2 * height, "pi radius^2 height"
     if shape == "ellipsoid" and length and breadth:
         return math.pi / 6 * length * breadth**2, "pi/6 length breadth^2"
-    if shape == "openBox" and length and width and height and thickness:
-        inner = (length - 2 * thickness) * (width - 2 * thickness) * (height - thickness)
-        return length * width * height - inner, "length * width * height minus cavity"
+    cavity = _cavity_of_box(get) if shape == "openBox" else None
+    if cavity is not None and length and width and height:
+        return length * width * height - cavity, "length * width * height minus cavity"
     vessel = _vessel(shape, get)
     if vessel is not None and thickness:
         bottom, side = get("bottomHoleRadius") or 0.0, get("holeRadius") or 0.0
@@ -57,11 +57,17 @@ def volume(shape: str, get: Get, file: Callable[[], str | None] = lambda: None) 
 
 def capacity(shape: str, get: Get) -> float | None:
     """Return what a vessel holds up to the brim [m^3], its holes stopped, or None if an extent is not known."""
-    length, width, height, thickness = get("length"), get("width"), get("height"), get("thickness")
-    if shape == "openBox" and length and width and height and thickness:
-        return (length - 2 * thickness) * (width - 2 * thickness) * (height - thickness)
+    if shape == "openBox":
+        return _cavity_of_box(get)
     vessel = _vessel(shape, get)
     return None if vessel is None else vessel.capacity
+
+
+def _cavity_of_box(get: Get) -> float | None:
+    length, width, height, thickness = (get(extent) or 0.0 for extent in ("length", "width", "height", "thickness"))
+    inner = (length - 2 * thickness, width - 2 * thickness, height - thickness)
+    # One whose walls meet is refused, with its name, when its shape is built.
+    return math.prod(inner) if thickness and min(inner) > 0.0 else None
 
 
 def _vessel(shape: str, get: Get) -> Vessel | None:

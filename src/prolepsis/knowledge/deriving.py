@@ -19,11 +19,26 @@ OF_THE_WALL = ("friction", "breakingForce", "plateStiffness", "shellThickness")
 
 
 def derive(base: KnowledgeBase, name: str, property_name: str) -> Known | None:
-    """Return the value of a property that follows from other values, or None if it does not."""
+    """Return the value of a property that follows from other values, or None if it does not.
+
+    Raises:
+        KnowledgeError: If it cannot be.
+    """
     if property_name in OF_THE_WALL:
         return _of_its_wall(base, name, property_name)
     rule = _RULES.get(property_name)
-    return (rule(base, name) if rule else None) or _on_a_curve(base, name, property_name)
+    known = (rule(base, name) if rule else None) or _on_a_curve(base, name, property_name)
+    if known is not None:
+        _refuse_out_of_bounds(base, name, property_name, known)
+    return known
+
+
+def _refuse_out_of_bounds(base: KnowledgeBase, name: str, property_name: str, known: Known) -> None:
+    """Refuse what follows from values that are each within their bounds, but is itself not."""
+    entry, where = base.vocabulary.properties[property_name], base.situation.locations[name]
+    if not entry.admits(float(known.value)):
+        value = f"{known.value:g} {known.unit} ({known.source})"
+        raise KnowledgeError(f"{where}: {name}: {property_name} = {value}: must be {entry.bounds}")
 
 
 def masses_of(base: KnowledgeBase) -> Masses:

@@ -216,6 +216,9 @@ CLOSEST = 0.7
 """Least distance of particles over the spacing [1]: more than an egg holds is refused."""
 FINER = 0.98
 """Step by which the lattice is made finer [1]."""
+ROOMY = 2.0
+"""The lattice is first looked for near the middle, where there is room for the cube of this times four as many points
+[1]: one of a whole shell that is nearly empty would fill the memory."""
 
 
 def egg_pools(
@@ -258,13 +261,14 @@ def _packed(semi_axes: FloatArray, count: int, spacing: float) -> FloatArray | N
     """Return ``count`` lattice points within an ellipsoid, the nearest to its middle first, shape (count, 3)."""
     step = spacing
     while step > CLOSEST * spacing:
-        high = np.floor(semi_axes / step) * step
-        points = lattice(-high, high, step)
-        inside = np.linalg.norm(points / semi_axes, axis=1) <= 1
-        if inside.sum() >= count:
+        near = ROOMY * step * float(np.cbrt(count / np.prod(semi_axes)))
+        for share in sorted({min(near, 1.0), 1.0}):
+            high = np.floor(share * semi_axes / step) * step
+            points = lattice(-high, high, step)
             # The yolk is a ball in the middle; round it, all is filled alike.
             layer = np.linalg.norm(points / semi_axes, axis=1)
-            points = points[np.argsort(layer, kind="stable")[:count]]
-            return points[np.argsort(np.linalg.norm(points, axis=1), kind="stable")]
+            if (layer <= share).sum() >= count:
+                points = points[np.argsort(layer, kind="stable")[:count]]
+                return points[np.argsort(np.linalg.norm(points, axis=1), kind="stable")]
         step *= FINER
     return None

@@ -38,8 +38,13 @@ def open_box(q: Mapping[str, float]) -> Shape:
     """Return a box without a lid, ``length`` x ``width`` x ``height`` outside, walls of ``thickness`` [m].
 
     The frame lies at the middle of the underside.
+
+    Raises:
+        KnowledgeError: If the walls leave no cavity.
     """
     refuse_holes(q, "an open box")
+    limit = min(q["length"] / 2, q["width"] / 2, q["height"])
+    turned.refuse_thick(q["thickness"], limit, "half its length and width, and its height")
     x, y, h, t = q["length"] / 2, q["width"] / 2, q["height"], q["thickness"] / 2
     middle = h / 2 + t
     return Shape(
