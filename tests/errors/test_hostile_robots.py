@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 from pathlib import Path
 
@@ -92,6 +93,35 @@ def test_a_flood_is_refused_before_anything_is_built(tmp_path: Path, model: str,
     said = refused(tmp_path, EXAMPLE, model)
     assert message in said
     assert len(said.replace(str(tmp_path), "")) <= 300 and "root:" not in said
+
+
+IMPOSSIBLE = [
+    ('mass="40"', 'mass="-40"', "inertial of body pedestal: mass is -40; allowed: numbers of at least 0"),
+    ('diaginertia="3 3 1"', 'diaginertia="3 -3 1"', "inertial of body pedestal: diaginertia is 3 -3 1; allowed"),
+    ('size="0.1 0.4"', 'size="0.1 -0.4"', "geom of body pedestal: size is 0.1 -0.4; allowed: numbers of at least 0"),
+    ('damping="0.5"', 'damping="-1"', "damping is -1; allowed: numbers of at least 0"),
+    ('armature="0.02"', 'armature="-1"', "armature is -1; allowed"),
+    ('range="-2.8 2.8"', 'range="2.8 -2.8"', "joint pan: range is 2.8 -2.8; allowed: the lesser number first"),
+    ('forcerange="-60 60"', 'forcerange="60 -60"', "forcerange is 60 -60; allowed: the lesser number first"),
+]
+IN_URDF = [
+    (
+        '<mass value="40"/>',
+        '<mass value="-40"/>',
+        "mass of link pedestal: value is -40; allowed",
+    ),
+    ('radius="0.1"', 'radius="-0.1"', "cylinder of link pedestal: radius is -0.1; allowed"),
+    ('lower="-2" upper="1.4"', 'lower="2" upper="1.4"', "lower is 2, upper 1.4; allowed: the lesser number as lower"),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "message"), [*IMPOSSIBLE, *IN_URDF], ids=lambda text: text[:30])
+def test_what_no_body_and_no_joint_can_have_is_refused(tmp_path: Path, old: str, new: str, message: str) -> None:
+    urdf = (Path(__file__).parents[1] / "robots" / "own_arm.urdf").read_text(encoding="utf-8")
+    path, text = (tmp_path / "own_arm.urdf", urdf) if old in urdf else (tmp_path / "own_arm.xml", MODEL)
+    path.write_text(text.replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(ScenarioError, match=re.escape(message)):
+        read_model_file(path)
 
 
 def test_nothing_is_left_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -94,6 +94,15 @@ _OF_MESHES = {
     *("name", "class", "file", "filename", "scale", "refpos", "refquat", "vertex", "normal", "texcoord", "face"),
     *("inertia", "maxhullvert", "smoothnormal"),
 }
+_NOT_NEGATIVE = {
+    *("mass", "density", "diaginertia", "armature", "frictionloss", "size", "radius", "length", "effort"),
+    *("ixx", "iyy", "izz"),
+}
+"""Attributes no number of which may be negative."""
+_FIRST_NOT_NEGATIVE = {"damping", "stiffness"}
+"""Attributes of which the first may not; what follows bends the line."""
+_RANGES = {"range", "forcerange", "ctrlrange", "actuatorfrcrange"}
+"""Attributes that are a least and a greatest number."""
 _NAMES = {
     *("name", "class", "childclass", "joint", "joint1", "joint2", "jointinparent", "body", "body1", "body2", "site"),
     *("site1", "site2", "refsite", "sidesite", "slidersite", "cranksite", "geom", "geom1", "geom2", "mesh", "material"),
@@ -128,8 +137,16 @@ def read_model_tree(path: Path, folder: Path | None = None) -> Element:
     count = _count(root, path)
     if count > MOST_ELEMENTS:
         raise ScenarioError(f"{path}: the robot has {count:.6g} elements; allowed: {MOST_ELEMENTS}")
+    above = {child: parent for parent in root.iter() for child in parent}
     for each in root.iter():
         _refuse_numbers(each, path)
+        wrong = _impossible(each)
+        if wrong:
+            named = each
+            while not named.get("name") and named in above:
+                named = above[named]
+            of = "" if named is each else f"{each.tag} of "
+            raise ScenarioError(f"{path}: {of}{named.tag} {short(named.get('name', ''))[:60]}: {wrong}")
     return root
 
 
@@ -312,6 +329,22 @@ def _refuse_numbers(each: Element, path: Path) -> None:
                         f"{path}: {short(owner)[:60]}: {short(name)[:40]} holds {number:g}; "
                         f"allowed: numbers up to {GREATEST:g}"
                     )
+
+
+def _impossible(each: Element) -> str:
+    """Return what nothing can have and what is allowed, or else nothing: MuJoCo takes some of it without a word."""
+    for name, value in each.attrib.items():
+        numbers, shown = list(_numbers(value)), f"{name} is {short(value)[:60]}"
+        weighs = each.tag == "mass" and name == "value"
+        few = numbers[:1] if name in _FIRST_NOT_NEGATIVE else numbers if name in _NOT_NEGATIVE or weighs else []
+        if any(number < 0.0 for number in few):
+            return f"{shown}; allowed: numbers of at least 0"
+        if name in _RANGES and len(numbers) == 2 and numbers[0] > numbers[1]:
+            return f"{shown}; allowed: the lesser number first"
+    lower, upper = (_number(each.get(name, "0")) for name in ("lower", "upper"))
+    if each.tag == "limit" and lower is not None and upper is not None and lower > upper:
+        return f"lower is {lower:g}, upper {upper:g}; allowed: the lesser number as lower"
+    return ""
 
 
 def _numbers(value: str) -> Iterator[float]:
