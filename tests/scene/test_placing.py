@@ -75,3 +75,30 @@ def test_a_place_beside_the_supporter_is_told_in_the_world() -> None:
 def test_what_is_not_lowered_cannot_be_on_anything() -> None:
     with pytest.raises(KnowledgeError, match="is on floor, but it is not lowered"):
         scene(AWAY + ":pr2 a :PR2 ; :on :floor .")
+
+
+@pytest.mark.parametrize(
+    ("told", "message"),
+    [
+        (
+            ":b :on :floor, :table1 .",
+            "b is on floor and table1, but on table1 it is 700 mm above floor",
+        ),
+        (":cup1 :contains :b . :b :on :floor .", "b .Block. is in several places: in cup1, on floor; allowed: one"),
+        (":cup1 :contains :b . :cup2 :contains :b .", "b .Block. is in several places: in cup1, in cup2; allowed: one"),
+        (":slab :contains :b .", "b cannot be in the Block slab: lowered onto it, it stays on top; needed: a vessel"),
+        (":cup1 :contains :b ; :pitch 180 .", "b cannot be in the Cup cup1: lowered onto it, it stays on top"),
+        (":cup1 :contains :b ; :lid true .", "b cannot be in the Cup cup1: lowered onto it, it stays on top"),
+    ],
+)
+def test_a_thing_that_cannot_be_where_it_is_said_to_be_is_refused(told: str, message: str) -> None:
+    cups = ":cup1 a :Cup ; :on :table1 ; :x 0.3 . :cup2 a :Cup ; :on :table1 ; :x -0.3 ."
+    slab = ":slab a :Block ; :on :table1 ; :x 0.15 . :b a :Block ; :length 0.02 ; :width 0.02 ; :height 0.02 . "
+    with pytest.raises(KnowledgeError, match=message):
+        scene(f"{AWAY} :floor a :Floor . {cups} {slab} {told}")
+
+
+def test_what_is_in_a_vessel_in_a_vessel_is_in_the_inner_one() -> None:
+    bowl = ":bowl1 a :Bowl ; :on :table1 ; :radius 0.2 ; :height 0.1 ; :contains :cup1 , :b . "
+    made = scene(AWAY + bowl + ":cup1 a :Cup ; :contains :b . :b a :Ball ; :radius 0.01 .")
+    assert made.thing("b").position[2] - made.thing("cup1").position[2] == pytest.approx(0.015, abs=1e-3)

@@ -18,7 +18,7 @@ from prolepsis.log.happenings import HappeningType
 from prolepsis.log.things import FIXED, FREE, Thing
 from prolepsis.scene.coherence import refuse_nonsense
 from prolepsis.scene.colours import colour_of
-from prolepsis.scene.extent import place_on
+from prolepsis.scene.extent import place_on, support
 from prolepsis.scene.kind import Channel, Draft, Individuals, Kind, Made, RestingHeight, Roles
 from prolepsis.scene.scene import Pool, Scene
 from prolepsis.scene.shapes import EXTENTS, SHAPES, Extents
@@ -36,6 +36,12 @@ OF_TABLES = "table"
 """The family of shapes that a box is of when it is a Table."""
 STATED = (*(shape for shape in SHAPES if shape != OF_TABLES), MESH_SHAPE)
 """Shapes that may be stated of any whole."""
+
+UNEVEN = 5.0e-3
+"""What is on several things may be this far above one of them [m]: it tips, and is on it after a moment."""
+
+IN = 1.0e-4
+"""What a vessel contains comes below its highest point by this at least [m]."""
 
 
 @one_thread()
@@ -95,6 +101,7 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
                 # Its kind builds its shape: it is lowered as what it is made of.
                 made_of = _all_of(thing, owners[name].parts(individuals, thing).things)
                 thing = replace(_put_on(made_of, under, resting_height), shape=thing.shape)
+            _refuse_outside(kb, thing, made[below[name][0]].things)
         if thing.fixed and owners[name].claims is not None:
             raise KnowledgeError(
                 f"{kb.location(name)}: {name} ({thing.kind}) is Furniture, which never moves, and {owners[name].claims}"
@@ -191,7 +198,11 @@ def _roles(kb: KnowledgeBase, known: frozenset[str], name: str) -> frozenset[str
 
 
 def _hosts(kb: KnowledgeBase, wholes: Collection[str]) -> dict[str, tuple[str, ...]]:
-    """Return what each whole is lowered onto: all that it is on, or the vessels that it is in."""
+    """Return what each whole is lowered onto: all that it is on, or the innermost vessel that it is in.
+
+    Raises:
+        KnowledgeError: If it is told to be in several places.
+    """
     on: dict[str, tuple[str, ...]] = {}
     inside: dict[str, tuple[str, ...]] = {}
     for relation, subject, host in kb.relations():
@@ -199,6 +210,13 @@ def _hosts(kb: KnowledgeBase, wholes: Collection[str]) -> dict[str, tuple[str, .
             on[subject] = (*on.get(subject, ()), host)
         elif relation == "contains" and host in wholes:
             inside[host] = (*inside.get(host, ()), subject)
+    for name, hosts in inside.items():
+        inside[name] = tuple(host for host in hosts if {*kb.objects_of("contains", host)}.isdisjoint(hosts))
+        if len(inside[name]) != 1 or not {*on.get(name, ())} <= {*hosts}:
+            told = brief_list([*(f"in {host}" for host in hosts), *(f"on {host}" for host in on.get(name, ()))])
+            raise KnowledgeError(
+                f"{kb.location(name)}: {name} ({kb.kind(name)}) is in several places: {told}; allowed: one"
+            )
     return on | inside
 
 
@@ -299,6 +317,19 @@ def _refuse_unasked(kb: KnowledgeBase, name: str, shape: str, asked: Collection[
                 )
 
 
+def _refuse_outside(kb: KnowledgeBase, thing: Thing, host: Sequence[Thing]) -> None:
+    """Refuse what a thing is said to contain, but what comes to lie on top of it."""
+    if host[0].name not in kb.subjects("contains", thing.name) or not thing.shape.geoms:
+        return
+    up = np.array([0.0, 0.0, 1.0])
+    top = max(each.position[2] + support(each, up) for each in host if each.shape.geoms and each.is_body)
+    if thing.position[2] - support(thing, -up) > top - IN:
+        raise KnowledgeError(
+            f"{kb.location(thing.name)}: {thing.name} cannot be in the {host[0].kind} {host[0].name}: lowered onto it, "
+            "it stays on top; needed: a vessel that is open above, and in which it has room"
+        )
+
+
 def _all_of(whole: Thing, parts: Sequence[Thing]) -> Thing:
     """Return a whole that is one with its parts, each where it is: all bodies that it is made of."""
     back, origin = inverse(whole.orientation), np.asarray(whole.position)
@@ -320,13 +351,22 @@ def _all_of(whole: Thing, parts: Sequence[Thing]) -> Thing:
 def _put_on(thing: Thing, under: Mapping[str, Sequence[Thing]], resting_height: RestingHeight) -> Thing:
     """Return the thing lowered onto what it rests on, at its x and y from there."""
     on = " and ".join(under)
-    solid = [t for things in under.values() for t in things if t.shape.geoms and t.is_body]
+    solid = {host: [t for t in things if t.shape.geoms and t.is_body] for host, things in under.items()}
     if not thing.shape.geoms:
         raise KnowledgeError(f"{thing.name} is on {on}, but a {thing.kind} does not rest on anything; state its z")
-    if not solid:
-        raise KnowledgeError(f"{thing.name} is on {on}, which has no body to rest on")
+    for host, bodies in solid.items():
+        if not bodies:
+            raise KnowledgeError(f"{thing.name} is on {host}, which has no body to rest on")
     if "z" in thing.quantities:
         raise KnowledgeError(f"{thing.name} is on {on} and has z stated too; state one of the two")
     x, y = place_on(thing, list(under.values()))
-    height = resting_height(replace(thing, position=(x, y, 0.0)), solid)
+    heights = {host: resting_height(replace(thing, position=(x, y, 0.0)), bodies) for host, bodies in solid.items()}
+    lowest, highest = (choose(heights, key=lambda host: heights[host]) for choose in (min, max))
+    gap = heights[highest] - heights[lowest]
+    if gap > UNEVEN:
+        raise KnowledgeError(
+            f"{thing.name} is on {on}, but on {highest} it is {1000 * gap:.3g} mm above {lowest}; allowed: at most "
+            f"{1000 * UNEVEN:g} mm, or one of them"
+        )
+    height = heights[highest]
     return replace(thing, position=(x, y, height))
