@@ -62,9 +62,9 @@ REFUSED: list[tuple[str, str, str]] = [
     (
         ":volume 0.0002",
         ":volume 0.0002 ; :density 50.0",
-        "liq1: density = 50: must be at least 100 and at most 20000 kg/m3 for a Water",
+        "liq1: density = 50 kg/m3: must be at least 100 and at most 20000 kg/m3 for a Water",
     ),
-    (":volume 0.0002", ":volume 0.0002 ; :density 25000.0", "density = 25000: must be at least 100 and at most 20000"),
+    (":volume 0.0002", ":volume 0.0002 ; :density 25000.0", "density = 25000 kg/m3: must be at least 100 and"),
     (
         ":liq1 a :Water",
         ":liq1 a :Honey ; :temperature 90.0",

@@ -44,6 +44,8 @@ def read_vocabulary(documents: tuple[Document, ...]) -> Vocabulary:
             _refuse_second_name(document, iri, known)
             # The file of correspondences declares properties anew.
             properties[entry.name] = entry if known is None else _more_aligned(known, entry)
+    for entry in properties.values():
+        _refuse_unlike(documents, entry, properties)
     for document in documents:
         # A file may say more of a property that another one declares.
         for field, iri, other in _between_properties(document):
@@ -65,6 +67,17 @@ def read_vocabulary(documents: tuple[Document, ...]) -> Vocabulary:
             if known is not None and known.iri == str(iri):
                 classes[known.name] = _joined(known, _class(document, iri, properties))
     return Vocabulary(classes=dict(sorted(classes.items())), properties=dict(sorted(properties.items())))
+
+
+def _refuse_unlike(documents: tuple[Document, ...], entry: Property, properties: Mapping[str, Property]) -> None:
+    """Refuse a property that is bounded by what cannot be compared with it."""
+    for name in filter(None, (entry.at_least_of, entry.at_most_of)):
+        other = properties.get(name)
+        if other is None or other.kind != "quantity" or other.si_unit != entry.si_unit:
+            where = next(d.where(URIRef(entry.iri)) for d in documents if (URIRef(entry.iri), None, None) in d.graph)
+            raise KnowledgeError(
+                f"{where}: {entry.name} is bounded by {name}; allowed: a number, or a property with the same unit"
+            )
 
 
 def _between_properties(document: Document) -> Iterator[tuple[str, URIRef, URIRef]]:
@@ -111,7 +124,8 @@ def _text(document: Document, subject: Node, predicate: URIRef) -> str:
 
 
 def _number(document: Document, subject: Node, predicate: URIRef) -> float | None:
-    node = _one(document, subject, predicate)
+    numbers = sorted((n for n in document.graph.objects(subject, predicate) if not isinstance(n, URIRef)), key=str)
+    node = numbers[0] if numbers else None
     try:
         return None if node is None else float(str(node))
     except ValueError:
@@ -119,6 +133,12 @@ def _number(document: Document, subject: Node, predicate: URIRef) -> float | Non
         raise KnowledgeError(
             f"{where}: {local_name(predicate)} must be a number, not {brief(repr(str(node)))}"
         ) from None
+
+
+def _property_named(document: Document, subject: URIRef, predicate: URIRef) -> str:
+    """Return the other property that bounds a property, empty if there is none."""
+    names = sorted(local_name(n) for n in document.graph.objects(subject, predicate) if isinstance(n, URIRef))
+    return names[0] if names else ""
 
 
 def _property(document: Document, iri: URIRef) -> Property:
@@ -148,6 +168,8 @@ def _property(document: Document, iri: URIRef) -> Property:
         above=_number(document, iri, PRO.above),
         at_least=_number(document, iri, PRO.atLeast),
         at_most=_number(document, iri, PRO.atMost),
+        at_least_of=_property_named(document, iri, PRO.atLeast),
+        at_most_of=_property_named(document, iri, PRO.atMost),
         whole=(iri, PRO.whole, Literal(True)) in graph,
         functional=(iri, RDF.type, OWL.FunctionalProperty) in graph,
         parents=tuple(sorted(local_name(p) for p in graph.objects(iri, RDFS.subPropertyOf) if isinstance(p, URIRef))),

@@ -37,7 +37,7 @@ def _refuse_out_of_bounds(base: KnowledgeBase, name: str, property_name: str, kn
     """Refuse what follows from values that are each within their bounds, but is itself not."""
     entry, where = base.vocabulary.properties[property_name], base.situation.locations[name]
     if not entry.admits(float(known.value)):
-        value = f"{known.value:g} {known.unit} ({known.source})"
+        value = f"{entry.shown(float(known.value))} ({known.source})"
         raise KnowledgeError(f"{where}: {name}: {property_name} = {value}: must be {entry.bounds}")
 
 

@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from prolepsis.knowledge.batches import refuse_idle_batches
-from prolepsis.knowledge.deriving import derive, masses_of
+from prolepsis.knowledge.deriving import derive
 from prolepsis.knowledge.describing import describe
 from prolepsis.knowledge.drawing import draw
 from prolepsis.knowledge.inferred import Types
+from prolepsis.knowledge.possible import refuse_impossible_values
 from prolepsis.knowledge.reading import infer, read
 from prolepsis.knowledge.situation import INVERSES, Situation, Statement
 from prolepsis.knowledge.sources import Source, sources_of
@@ -54,24 +54,8 @@ class KnowledgeBase:
         vocabulary, situation, types = read(texts, check=check, most=most)
         base = cls(vocabulary=vocabulary, situation=situation, types=types, sources=texts, overrides={})
         if check:
-            base._refuse_impossible_values()
+            refuse_impossible_values(base)
         return base
-
-    def _refuse_impossible_values(self) -> None:
-        """Refuse masses that contradict each other, values out of the limits of a class, and idle ones of a batch."""
-
-        def where(name: str, property_name: str = "mass") -> str:
-            stated = self.situation.said.get((name, property_name))
-            return stated[0].where if stated else self.situation.locations[name]
-
-        masses_of(self).refuse(where)
-        refuse_idle_batches(self)
-        for name in self.individuals:
-            for limit in (limit for c in self.types.classes[name] for limit in self.vocabulary.classes[c].limits):
-                value = self.number(name, limit.name)
-                if value is not None and not limit.admits(value):
-                    allowed = f"must be {limit.bounds} for a {self.kind(name)}"
-                    raise KnowledgeError(f"{where(name, limit.name)}: {name}: {limit.name} = {value:g}: {allowed}")
 
     @property
     def unchecked(self) -> str:
@@ -229,7 +213,7 @@ class KnowledgeBase:
         situation = replace(self.situation, statements=tuple(statements))
         types = infer(self.sources, self.vocabulary, situation)
         changed = replace(self, situation=situation, types=types, overrides=overrides)
-        changed._refuse_impossible_values()
+        refuse_impossible_values(changed)
         return changed
 
     def domain(self) -> Domain:

@@ -39,6 +39,11 @@ _CLASS_PREDICATES = {
     PRO.unless,
 }
 """Predicates whose objects are classes."""
+_PROPERTY_PREDICATES = {
+    *(OWL.onProperty, RDFS.subPropertyOf, OWL.inverseOf),
+    *(PRO.of, PRO.over, PRO.countedBy, PRO.atLeast, PRO.atMost),
+}
+"""Predicates whose objects are properties."""
 
 
 def refuse_unknown_names(documents: tuple[Document, ...], vocabulary: Vocabulary) -> None:
@@ -79,8 +84,4 @@ def refuse_unknown_names(documents: tuple[Document, ...], vocabulary: Vocabulary
 def _role(predicate: Node) -> str:
     if predicate in _CLASS_PREDICATES:
         return "class"
-    return (
-        "property"
-        if predicate in (OWL.onProperty, RDFS.subPropertyOf, OWL.inverseOf, PRO.of, PRO.over, PRO.countedBy)
-        else "individual"
-    )
+    return "property" if predicate in _PROPERTY_PREDICATES else "individual"

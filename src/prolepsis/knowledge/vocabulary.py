@@ -38,6 +38,10 @@ class Property:
     """Values must not be less than this [unit]."""
     at_most: float | None = None
     """Values must not be greater than this [unit]."""
+    at_least_of: str = ""
+    """Another property of the same individual than which values must not be less; empty if there is none."""
+    at_most_of: str = ""
+    """Another property of the same individual than which values must not be greater; empty if there is none."""
     whole: bool = False
     """True if values must be whole numbers."""
     functional: bool = False
@@ -66,6 +70,11 @@ class Property:
         parts += [f"at most {self.at_most:g}"] if self.at_most is not None else []
         bounds = " and ".join(parts) + (f" {self.unit}" if parts and self.unit not in ("", "1") else "")
         return " ".join((["a whole number"] if self.whole else []) + ([bounds] if bounds else []))
+
+    def shown(self, value: float) -> str:
+        """Return a value in SI units as a message shows it, in the unit in which it is written."""
+        unit = unit_of(self.unit)
+        return f"{(value - unit.offset) / unit.factor:g} {self.unit if self.unit != '1' else ''}".rstrip()
 
     def admits(self, value: float) -> bool:
         """Return whether a value in SI units is within the bounds."""

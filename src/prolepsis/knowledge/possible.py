@@ -1,0 +1,61 @@
+"""Values are possible: within the limits of their classes, on the right side of each other, and none is idle."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from prolepsis.knowledge.batches import refuse_idle_batches
+from prolepsis.knowledge.deriving import masses_of
+from prolepsis.knowledge.vocabulary import Property
+from prolepsis.terms.errors import KnowledgeError
+
+if TYPE_CHECKING:
+    from prolepsis.knowledge.knowledge_base import KnowledgeBase
+
+
+def refuse_impossible_values(base: KnowledgeBase) -> None:
+    """Refuse what no individual can have.
+
+    Raises:
+        KnowledgeError: If masses of parts and wholes contradict each other, a value is out of the limits of a class or
+            on the wrong side of another one, or a batch states what its individuals do not have.
+    """
+
+    def where(name: str, property_name: str = "mass") -> str:
+        stated = base.situation.said.get((name, property_name))
+        return stated[0].where if stated else base.situation.locations[name]
+
+    masses_of(base).refuse(where)
+    refuse_idle_batches(base)
+    compared = [entry for entry in base.vocabulary.properties.values() if entry.at_least_of or entry.at_most_of]
+    usual: set[tuple[str, ...]] = set()
+    for name in base.individuals:
+        classes = base.types.classes[name]
+        for limit in (limit for c in classes for limit in base.vocabulary.classes[c].limits):
+            value = base.number(name, limit.name)
+            if value is not None and not limit.admits(value):
+                said = f"{limit.name} = {limit.shown(value)}: must be {limit.bounds} for a {base.kind(name)}"
+                raise KnowledgeError(f"{where(name, limit.name)}: {name}: {said}")
+        for entry in compared:
+            # Of those of whom nothing of it is said, one of each kind is enough.
+            said = any((name, each) in base.situation.said for each in (entry.name, *_others(entry)))
+            if said or classes not in usual:
+                _refuse_wrong_side(base, name, entry, where(name, entry.name))
+        usual.add(classes)
+
+
+def _others(entry: Property) -> Iterator[str]:
+    yield from filter(None, (entry.at_least_of, entry.at_most_of))
+
+
+def _refuse_wrong_side(base: KnowledgeBase, name: str, entry: Property, where: str) -> None:
+    """Refuse a value on the wrong side of another one of the same individual."""
+    value = base.number(name, entry.name)
+    for other, words, sign in ((entry.at_least_of, "at least", 1.0), (entry.at_most_of, "at most", -1.0)):
+        bound = base.number(name, other) if other and value is not None else None
+        if value is not None and bound is not None and sign * value < sign * bound:
+            raise KnowledgeError(
+                f"{where}: {name} ({base.kind(name)}): {entry.name} = {entry.shown(value)}: must be {words} its "
+                f"{other}, {entry.shown(bound)}; state both"
+            )
