@@ -17,7 +17,7 @@ ANSWERED, NO, BAD_INPUT, INVALID, UNEXPECTED = 0, 1, 2, 3, 4
 INTERRUPTED = 130
 """As shells report a process that was ended by Ctrl-C."""
 TRACEBACK = "--traceback"
-"""Option of every command."""
+"""Option of every command, before it or after it."""
 LEAST_MEMORY = 512
 """Address space without which numerical libraries end the process as they are loaded [MB]."""
 
@@ -77,11 +77,13 @@ def _answer(given: Sequence[str]) -> int:
 
 
 def _run(given: Sequence[str]) -> int:
+    traced = TRACEBACK in given
     try:
         from prolepsis.commands.output import notes_told
         from prolepsis.commands.parser import parser
 
         read = parser().parse_args(given)
+        traced = read.traceback
         if (room := _memory()) < LEAST_MEMORY:
             return _tell(f"{room} MB of memory are allowed (ulimit -v); needed: {LEAST_MEMORY} MB", BAD_INPUT)
         with notes_told():
@@ -92,7 +94,7 @@ def _run(given: Sequence[str]) -> int:
         if _Interrupted.happened:
             # A library that was being loaded has made an error of its own of it.
             raise _Interrupted from error
-        return _refuse(error, given)
+        return _refuse(error, traced)
 
 
 def _memory() -> float:
@@ -103,7 +105,7 @@ def _memory() -> float:
     return float("inf") if limit == resource.RLIM_INFINITY else limit >> 20
 
 
-def _refuse(error: BaseException, given: Sequence[str]) -> int:
+def _refuse(error: BaseException, traced: bool) -> int:
     """Say what is wrong, and return the exit status that says whose matter it is."""
     from prolepsis.terms.errors import InputError, InvalidSimulationError, MissingToolError
 
@@ -119,12 +121,12 @@ def _refuse(error: BaseException, given: Sequence[str]) -> int:
             # MuJoCo has words of its own for it. Without a limit, whoever asks for too much is at fault.
             return _tell("memory ran short: allow more of it (ulimit -v), or make the scenario smaller", BAD_INPUT)
         case _:
-            return _fail(error, given)
+            return _fail(error, traced)
 
 
-def _fail(error: BaseException, given: Sequence[str]) -> int:
+def _fail(error: BaseException, traced: bool) -> int:
     """Tell of an error that nobody foresaw."""
-    if TRACEBACK in given:
+    if traced:
         import traceback
 
         traceback.print_exception(error)

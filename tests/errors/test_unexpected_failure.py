@@ -60,9 +60,12 @@ def test_an_unexpected_failure_is_one_line_and_exit_status_4(
     assert len(captured.err) <= LONGEST_LINE + 1
 
 
-def test_traceback_shows_where_it_happened(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize("given", [["list", "--traceback"], ["--traceback", "list"], ["list", "--trace"]])
+def test_traceback_shows_where_it_happened(
+    given: list[str], monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
     fail_with(KeyError("egg1"), monkeypatch)
-    assert main(["list", "--traceback"]) == 4
+    assert main(given) == 4
     shown = capfd.readouterr().err
     assert shown.startswith("Traceback (most recent call last):\n")
     assert "in run\n" in shown

@@ -32,9 +32,15 @@ def add_command(commands: Any, name: str, doc: str, example: str, run: Callable[
         epilog=f"example:\n{example.rstrip()}",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("--traceback", action="store_true", help="show where an unexpected failure happened")
+    add_traceback(parser, default=argparse.SUPPRESS)
     parser.set_defaults(run=run)
     return parser
+
+
+def add_traceback(parser: argparse.ArgumentParser, default: Any = False) -> None:
+    """Add the option that shows tracebacks; it may stand before a command and after it."""
+    doc = "show where an unexpected failure happened"
+    parser.add_argument("--traceback", action="store_true", default=default, help=doc)
 
 
 def add_progress(parser: argparse.ArgumentParser) -> None:

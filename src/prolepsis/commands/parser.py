@@ -7,6 +7,7 @@ import sys
 from typing import Any, NoReturn
 
 from prolepsis.commands import ask, catalogue, doctor, project, render, sweep, timeline
+from prolepsis.commands.output import add_traceback
 from prolepsis.terms.errors import error_line
 
 DESCRIPTION = """\
@@ -53,6 +54,7 @@ def parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     top.add_argument("--version", action=_Version, nargs=0, help="show program's version number and exit")
+    add_traceback(top)
     commands = top.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for command in (project, ask, timeline, sweep, render, catalogue, doctor):
         command.add_to(commands)

@@ -81,7 +81,7 @@ def run(given: argparse.Namespace) -> int:
         )
     print(as_json(outcomes) if given.json else report(outcomes))
     warn_unchecked(next((row.unchecked for row in outcomes.rows if row.unchecked), ""))
-    if getattr(given, "traceback", False):
+    if given.traceback:
         for row in outcomes.rows:
             if row.unexpected:
                 print(row.unexpected, file=sys.stderr)
