@@ -60,11 +60,11 @@ TABLE = [
         "gripper1: fingers: no joint named 'rite'; did you mean 'right'?; known: elbow, flex",
     ),
     ('"left", "right"', '"left", "left"', "gripper1: fingers: two joints of two fingers are needed"),
-    ('"left", "right"', '"left"', "robot.grippers.gripper1.fingers.1: field required"),
-    ("tool = [0.08, 0, 0]", "tool = [0.08, 0]", "robot.grippers.gripper1.tool.2: field required"),
+    ('"left", "right"', '"left"', "robot.grippers.gripper1.fingers.1: is missing"),
+    ("tool = [0.08, 0, 0]", "tool = [0.08, 0]", "robot.grippers.gripper1.tool.2: is missing"),
     ("tool = [0.08, 0, 0]", "tool = [1, 2, 3, 4]", "robot.grippers.gripper1.tool: has 4 items; allowed: at most 3"),
     ("tool = [0.08, 0, 0]", 'tool = "front"', "robot.grippers.gripper1.tool: give a list"),
-    ('"left", "right"]', '"left", "right"]\nspeed = "fast"', "gripper1.speed: input should be a valid number"),
+    ('"left", "right"]', '"left", "right"]\nspeed = "fast"', "gripper1.speed: give a number, not 'fast'"),
     (
         "tool = ",
         "forward = [0, 1, 0]\ntool = ",
@@ -119,7 +119,7 @@ JAW = [
         "forward = [-1, 0, 0]\ntool = ",
         "gripper1: forward must point from the palm to the fingertips, not back",
     ),
-    ('jaw = "jaw"', "jaw = 3", "own_jaw.toml: robot.grippers.gripper1.jaw: input should be a valid string"),
+    ('jaw = "jaw"', "jaw = 3", "own_jaw.toml: robot.grippers.gripper1.jaw: give a text in quotes, not 3"),
     (
         '"fixed_jaw", "moving_jaw"',
         '"moving_jaw", "fixed_jaw"',

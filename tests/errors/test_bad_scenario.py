@@ -26,6 +26,15 @@ def write(folder: Path, text: str) -> Path:
     ("old", "new", "message"),
     [
         ("plan =", "plan : ", r"scenario\.toml:2: TOML syntax"),
+        ("close(", "Close(", r"only variables begin with a capital letter: write close\(\.\.\.\)"),
+        ("close(", "CLOSE(", r"only variables begin with a capital letter: write close"),
+        ("hand1, Force)", "hand1, 10 N)", r"numbers are in SI units, without a unit"),
+        (
+            "[parameters]",
+            'duration = "1 s"\n[parameters]',
+            r"duration = '1 s': give a number of seconds, without a unit",
+        ),
+        ("[parameters]", "particles = true\n[parameters]", r"particles = true: must be a whole number"),
         ("plan =", "plam =", r"unknown key 'plam'; known: situation, plan|the key 'plan' is missing"),
         ("s.ttl", "t.ttl", r"there is no file .*t\.ttl"),
         ('"N"', '"stone"', r"parameter Force: no unit 'stone'"),

@@ -59,6 +59,26 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "a fraction of a seed": (lambda: replace(Scenario.load(DROP), seed=cast(Any, 1.5)), "seed = 1.5: must be a whole"),
     "a number of particles": (lambda: replace(Scenario.load(DROP), particles=cast(Any, "5")), "particles = 5: must be"),
+    "parameters": (lambda: replace(Scenario.load(DROP), parameters=cast(Any, [3])), r"parameters = \[3\]: give each"),
+    "a parameter": (lambda: replace(Scenario.load(DROP), parameters={"F": cast(Any, 3)}), "give each variable's Param"),
+    "knowledge": (
+        lambda: replace(Scenario.load(DROP), knowledge=cast(Any, "x")),
+        "knowledge = 'x': give numbers",
+    ),
+    "monitors": (lambda: replace(Scenario.load(DROP), monitors={"egg1": cast(Any, "load")}), "give lists of names by"),
+    "a robot": (
+        lambda: replace(Scenario.load(DROP), robot=cast(Any, ["pr2"])),
+        "give the name of a robot",
+    ),
+    "a duration": (
+        lambda: replace(Scenario.load(DROP), duration=cast(Any, "1 s")),
+        "duration = '1 s': give a number",
+    ),
+    "a long duration": (
+        lambda: replace(Scenario.load(DROP), duration=HUGE),
+        "greater than 0 and at most 86,400",
+    ),
+    "a path of a scenario": (lambda: replace(Scenario.load(DROP), path=cast(Any, None)), "path = None: give a Path"),
     "a draw that is a text": (lambda: replace(Scenario.load(DROP), draw=cast(Any, "false")), "draw = false: must be"),
     "values": (lambda: sweep(DROP, {"seed": "123"}), "values to sweep over are lists by name"),
     "a value": (lambda: sweep(DROP, {"seed": [cast(Any, None)]}), "settings are numbers or texts"),

@@ -150,11 +150,12 @@ class KnowledgeBase:
         }
         return {p: known for p, known in found.items() if known is not None}
 
-    def with_values(self, values: Mapping[str, float | str]) -> KnowledgeBase:
+    def with_values(self, values: Mapping[str, float | str], *, where: str = "") -> KnowledgeBase:
         """Return a knowledge base in which ``"individual.property"`` has another value.
 
         Args:
             values: Numbers in the property's unit, texts such as ``"58 g"``, ``true``, or names of individuals.
+            where: What messages begin with.
 
         Raises:
             UnknownNameError: If an individual or property does not exist.
@@ -165,18 +166,19 @@ class KnowledgeBase:
         overrides: dict[tuple[str, str], Known] = {}
         for key, value in values.items():
             name, dot, property_name = key.rpartition(".")
+            here = f"{where}{key}"
             if not dot:
-                raise KnowledgeError(f"a knowledge value is named individual.property, not {brief(repr(key))}")
-            self._require(name, where=key)
+                raise KnowledgeError(f"{where}a knowledge value is named individual.property, not {brief(repr(key))}")
+            self._require(name, where=here)
             entry = self.vocabulary.properties.get(property_name)
             if entry is None:
-                raise UnknownNameError.of("property", property_name, self.vocabulary.properties, where=key)
+                raise UnknownNameError.of("property", property_name, self.vocabulary.properties, where=here)
             counts = {part.counted_by for each in self.vocabulary.classes.values() for part in each.parts}
             if property_name in ("hasPart", "comprises", *INVERSES, *counts):
-                raise KnowledgeError(f"{key}: {property_name} cannot be overridden; write it in the situation")
-            read = read_value(entry, str(value).lower() if isinstance(value, bool) else value, where=key)
+                raise KnowledgeError(f"{here}: {property_name} cannot be overridden; write it in the situation")
+            read = read_value(entry, str(value).lower() if isinstance(value, bool) else value, where=here)
             if entry.kind == "relation":
-                self._require(str(read), where=key)
+                self._require(str(read), where=here)
             overrides[name, property_name] = Known(value=read, unit=entry.si_unit, origin="override", source="override")
         return self._with(overrides)
 

@@ -52,13 +52,28 @@ class ScenarioFile(BaseModel):
     situation: StrictStr | Annotated[list[StrictStr], Field(min_length=1)]
     plan: StrictStr
     duration: Number | None = None
-    seed: Annotated[StrictInt, Field(ge=0)] = 0
+    seed: StrictInt = 0
     draw: StrictBool = False
     particles: StrictInt = DEFAULT_PARTICLES
     robot: StrictStr | dict[str, Any] | None = None
     parameters: dict[str, Number | StrictStr | ParameterTable] = {}
     knowledge: dict[str, bool | Number | StrictStr] = {}
     monitors: dict[str, list[StrictStr]] = {}
+
+
+WANTED: Mapping[str, str] = {
+    "situation": "give the name of a Turtle file, or a list of such names",
+    "plan": "give a text, such as 'lift(hand1, 0.1)'",
+    "duration": "give a number of seconds, without a unit",
+    "seed": "must be a whole number",
+    "draw": "must be true or false",
+    "particles": "must be a whole number",
+    "robot": "give a name, or a table [robot] with file and grippers",
+    "parameters": "give a table [parameters], with a value for each variable of the plan",
+    "knowledge": 'give a table [knowledge], as "egg1.mass" = 0.06',
+    "monitors": 'give a table [monitors], as egg1 = ["load", "speed"]',
+}
+"""What each key of a scenario file must be."""
 
 
 def read_file(path: Path) -> ScenarioFile:
@@ -151,7 +166,8 @@ def _first_problem(error: ValidationError, table: Mapping[str, Any]) -> str:
     problem = error.errors(include_url=False)[0]
     keys = [str(key) for key in problem["loc"]]
     if problem["type"] == "extra_forbidden" and len(keys) == 1:
-        return f"unknown key {brief(repr(keys[0]))}; known: {', '.join(ScenarioFile.model_fields)}"
+        known = ScenarioFile.model_fields
+        return f"unknown key {brief(repr(keys[0]))}{did_you_mean(keys[0], known)}; known: {', '.join(known)}"
     if problem["type"] == "missing" and len(keys) == 1:
         return f"the key {keys[0]!r} is missing; needed: situation, plan"
     if keys[0] == "parameters" and len(keys) > 1:
@@ -162,23 +178,42 @@ def _first_problem(error: ValidationError, table: Mapping[str, Any]) -> str:
         )
     if keys[0] == "monitors" and len(keys) > 1:
         return f'monitors: {brief(keys[1])}: give a list of names, such as ["load", "speed"]'
-    given = brief(repr(table.get(keys[0])))
-    if keys[0] == "robot":
-        return f"robot = {given}: give a name, or a table [robot] with file and grippers"
-    if keys[0] == "draw":
-        return f"draw = {given}: must be true or false"
-    return f"{keys[0]} = {given}: {_said(problem)}"
+    return f"{keys[0]} = {_given(table.get(keys[0]))}: {WANTED[keys[0]]}"
+
+
+def _given(value: object) -> str:
+    """Return a value as TOML has it, nearly."""
+    return brief(str(value).lower() if isinstance(value, bool) else repr(value) if isinstance(value, str) else value)
 
 
 def _said(problem: Any) -> str:
-    """Return what is wrong as TOML has it: a table is no dictionary or dataclass there, a list no tuple."""
-    if problem["type"] in ("dict_type", "mapping_type", "dataclass_type", "dataclass_exact_type", "model_type"):
-        return "give a table"
-    if problem["type"] in ("tuple_type", "list_type"):
-        return "give a list"
+    """Return what is wrong in our words, and as TOML has it: a table is no dataclass there, a list no tuple."""
+    limits = problem.get("ctx", {})
     if problem["type"] in ("too_long", "too_short"):
-        most, least = problem["ctx"].get("max_length"), problem["ctx"].get("min_length")
-        return f"has {problem['ctx']['actual_length']} items; allowed: " + (
+        most, least = limits.get("max_length"), limits.get("min_length")
+        return f"has {limits['actual_length']} items; allowed: " + (
             f"at least {least}" if most is None else f"at most {most}"
         )
-    return str(problem["msg"]).lower().removesuffix(", unable to parse string as a number")
+    if problem["type"] == "missing":
+        return "is missing"
+    for words, wanted in _WORDS.items():
+        if problem["type"].startswith(words):
+            return f"{wanted.format(**limits)}, not {_given(problem['input'])}"
+    return f"is not what is needed here: {_given(problem['input'])}"
+
+
+_WORDS: Mapping[str, str] = {
+    "greater_than_equal": "must be at least {ge:g}",
+    "greater_than": "must be greater than {gt:g}",
+    "less_than_equal": "must be at most {le:g}",
+    "less_than": "must be less than {lt:g}",
+    "finite": "must be finite",
+    "string_too_long": "must have at most {max_length} characters",
+    "string": "give a text in quotes",
+    "int": "give a whole number",
+    "float": "give a number",
+    "bool": "give true or false",
+    **dict.fromkeys(("dict", "mapping", "dataclass", "model"), "give a table"),
+    **dict.fromkeys(("tuple", "list"), "give a list"),
+}
+"""How the types of problems begin, and what to say of them."""

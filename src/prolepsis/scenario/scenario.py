@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import cast
@@ -17,10 +17,10 @@ from prolepsis.knowledge.situation import MOST_INDIVIDUALS
 from prolepsis.knowledge.sources import NAMESPACE, Source
 from prolepsis.scenario.file import DEFAULT_PARTICLES, ParameterTable, read_file, read_robot
 from prolepsis.scenario.own_robot import OwnRobot
+from prolepsis.scenario.plan import bind, read_plan, variables
 from prolepsis.system.text_files import is_file, path_of
-from prolepsis.terms.errors import InputError, PlanError, ScenarioError, UnknownNameError, brief, brief_list
-from prolepsis.terms.reader import parse_term
-from prolepsis.terms.terms import PARTIAL_LIST, Term, Value, Variable
+from prolepsis.terms.errors import InputError, ScenarioError, UnknownNameError, brief, brief_list
+from prolepsis.terms.terms import Value
 from prolepsis.terms.units import read_quantity, si_symbol, to_float, to_si, unit_of
 
 FEWEST_PARTICLES, MOST_PARTICLES = 20, 200_000
@@ -82,13 +82,16 @@ class Scenario:
 
     def __post_init__(self) -> None:
         """Read what is given as text, and refuse a scenario that cannot be run."""
+        for name, (fits, wanted) in WANTED.items():
+            if not fits(value := getattr(self, name)):
+                raise ScenarioError(f"scenario: {name} = {brief(repr(value))}: give {wanted}")
         object.__setattr__(self, "situation", _situation(self.situation, self.path))
         if isinstance(self.plan, str):
-            object.__setattr__(self, "plan", _plan(self.plan, self.path))
-        if self.duration is not None and not 0.0 < self.duration <= LONGEST:
+            object.__setattr__(self, "plan", read_plan(self.plan, self.path))
+        if self.duration is not None and not 0.0 < to_float(self.duration) <= LONGEST:
             raise ScenarioError(
                 f"{self.path}: duration must be a finite number of seconds greater than 0 and at most {LONGEST:,.0f}, "
-                f"not {self.duration:g}"
+                f"not {to_float(self.duration):g}"
             )
         for name in ("seed", "particles"):
             if type(getattr(self, name)) is not int:
@@ -110,8 +113,8 @@ class Scenario:
         missing = [name for name in used if name not in self.parameters]
         if missing:
             raise ScenarioError(
-                f"{self.path}: the plan's variable {brief(missing[0])} has no value; give it under [parameters]; "
-                f"given: {brief_list(sorted(self.parameters))}"
+                f"{self.path}: the plan's variable {brief(missing[0])} has no value; give it under [parameters], or "
+                f"begin what is no variable with a small letter; given: {brief_list(sorted(self.parameters))}"
             )
         unused = [name for name in sorted(self.parameters) if name not in used]
         if unused:
@@ -228,7 +231,7 @@ class Scenario:
                 raise UnknownNameError.of(
                     "individual", parameter.value, base.individuals, f"{self.path}: parameter {name}"
                 )
-        base = base.with_values(self.knowledge) if self.knowledge else base
+        base = base.with_values(self.knowledge, where=f"{self.path}: knowledge: ") if self.knowledge else base
         return base.with_draws(self.seed) if self.draw else base
 
     def _robot_sources(self) -> list[Path | Source]:
@@ -242,36 +245,6 @@ class Scenario:
     def bound_plan(self) -> Value:
         """Return the plan with each variable replaced by its number (SI) or the name of its individual."""
         return bind(self.plan, {name: parameter.value for name, parameter in self.parameters.items()})
-
-
-def variables(value: Value) -> Iterator[str]:
-    """Yield the names of the variables in ``value``, as often as they occur."""
-    for each in _within(value):
-        if isinstance(each, Variable):
-            yield each.name
-
-
-def _within(value: Value) -> Iterator[Value]:
-    """Yield ``value`` and all that it is made of."""
-    waiting = [value]
-    while waiting:
-        each = waiting.pop()
-        yield each
-        if isinstance(each, Term):
-            waiting += each.args
-        elif isinstance(each, tuple):
-            waiting += each
-
-
-def bind(value: Value, values: Mapping[str, float | str]) -> Value:
-    """Return ``value`` with its variables replaced."""
-    if isinstance(value, Variable):
-        return values[value.name]
-    if isinstance(value, Term):
-        return Term(value.functor, tuple(bind(argument, values) for argument in value.args))
-    if isinstance(value, tuple):
-        return tuple(bind(item, values) for item in value)
-    return value
 
 
 def _situation(given: object, path: Path) -> tuple[Path | Source, ...]:
@@ -295,17 +268,6 @@ def _situation(given: object, path: Path) -> tuple[Path | Source, ...]:
             )
         found.append(each)
     return tuple(found)
-
-
-def _plan(text: str, path: Path) -> Value:
-    try:
-        plan = parse_term(text, where=f"{path}: plan")
-    except InputError as error:
-        raise PlanError(str(error)) from error
-    for each in _within(plan):
-        if isinstance(each, Term) and each.functor == PARTIAL_LIST:
-            raise PlanError(f"{path}: plan: [A|B] is no list of actions or numbers; write all of it, [A, B]")
-    return plan
 
 
 def _parameter(value: float | str | ParameterTable, where: str) -> Parameter:
@@ -382,3 +344,40 @@ def _plain(value: bool | float | str) -> float | str:
 def _is_setting(item: tuple[object, object]) -> bool:
     name, value = item
     return isinstance(name, str) and isinstance(value, str | int | float)
+
+
+def _is_table(fits: Callable[[object], bool]) -> Callable[[object], bool]:
+    """Return whether something is a mapping from names to what fits."""
+
+    def is_table(value: object) -> bool:
+        rows = cast("Mapping[object, object]", value).items() if isinstance(value, Mapping) else None
+        return rows is not None and all(isinstance(name, str) and fits(each) for name, each in rows)
+
+    return is_table
+
+
+def _are_names(value: object) -> bool:
+    return isinstance(value, list | tuple) and all(isinstance(name, str) for name in cast("Sequence[object]", value))
+
+
+WANTED: Mapping[str, tuple[Callable[[object], bool], str]] = {
+    "path": (lambda value: isinstance(value, Path), "a Path"),
+    "parameters": (
+        _is_table(lambda value: isinstance(value, Parameter)),
+        "each variable's Parameter by its name, {'Force': Parameter(20.0, 'N')}",
+    ),
+    "knowledge": (
+        _is_table(lambda value: isinstance(value, str | int | float)),
+        "numbers, texts or truths by individual.property, {'egg1.mass': 0.06}",
+    ),
+    "robot": (
+        lambda value: value is None or isinstance(value, str | OwnRobot),
+        "the name of a robot, an OwnRobot, or None",
+    ),
+    "duration": (
+        lambda value: value is None or (isinstance(value, int | float) and not isinstance(value, bool)),
+        "a number of seconds, or None",
+    ),
+    "monitors": (_is_table(_are_names), "lists of names by thing, {'egg1': ['load', 'speed']}"),
+}
+"""Fields of a scenario that Python may give as anything: whether a value fits, and what does."""
