@@ -17,6 +17,16 @@ PREFIX = "@prefix : <https://w3id.org/prolepsis#> .\n"
     ("text", "message"),
     [
         (":egg1 a :Eg .", r"s\.ttl:2: no class named 'Eg'; did you mean 'Egg'"),
+        (":egg1 a :egg .", r"no class named 'egg'; did you mean 'Egg'"),
+        (":egg1 a :EGG .", r"no class named 'EGG'; did you mean 'Egg'"),
+        (":egg1 a :Egg ; :MASS 0.05 .", r"no property named 'MASS'; did you mean 'mass'"),
+        (":t a :paper_TOWEL .", r"no class named 'paper_TOWEL'; did you mean 'PaperTowel'"),
+        (
+            ":a a :Solid ; :shape :elipsoid .",
+            r"named 'elipsoid'; did you mean 'ellipsoid'\?; known: articulated, bowl",
+        ),
+        (":a a :Egg ; :batch :carton .", r"no individual named 'carton'; known: none"),
+        (":a a :Egg ; :on :FLOOR . :floor a :Floor .", r"named 'FLOOR'; did you mean 'floor'\?; known: a, floor$"),
         (":egg1 a :Egg ; :mas 0.05 .", r"s\.ttl:2: no property named 'mas'; did you mean 'mass'"),
         (":egg1 a :Egg ; :on :tabel1 . :table1 a :Table .", r"no individual named 'tabel1'; did you mean 'table1'"),
         (":egg1 a :Egg ; :mass -0.05 .", r"egg1: mass = -0\.05: must be finite and at least 1e-09"),

@@ -61,7 +61,7 @@ IN_SCENARIO: list[tuple[str, str, str]] = [
     ('"egg1.temperature" = 20', '"egg1.mass" = nan', "egg1.mass: mass = nan: must be finite and at least 1e-09"),
     ('"egg1.temperature" = 20', '"egg1.friction" = 0', "egg1.friction: friction = 0.0: must be finite"),
     ("seed = 1", "seed = -1", "scenario.toml: seed = -1: "),
-    ("seed = 1", "sed = 1", "scenario.toml: unknown key 'sed'; known: situation, plan"),
+    ("seed = 1", "sed = 1", "scenario.toml: unknown key 'sed'; did you mean 'seed'?; known: situation, plan"),
     ("seed = 1", "seed = = 1", "scenario.toml:3: TOML syntax: "),
     ("s.ttl", "t.ttl", "scenario.toml: situation: there is no file "),
 ]

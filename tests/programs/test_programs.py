@@ -200,9 +200,15 @@ REFUSED = [
     ("hit(hand1, egg1, table1, 1e-9)", PlanError, "speed of .* must be at least 0.0001 m/s, not 1e-09"),
     ("repeat_until(touching(egg1, egg1), wait(1))", PlanError, "would never hold: nothing touches itself"),
     ("repeat_until(not(pressed(egg1, egg1, 2)), wait(1))", PlanError, "would never hold: nothing touches itself"),
+    ("wait(0.1), wait(0.2)", PlanError, r"actions are joined by sequence\(\[A, B\]\) or together"),
+    (
+        "grasp(hand1, egg1, '5 N')",
+        PlanError,
+        r"must be a number \[N\] or a force level, not 5 N; what has",
+    ),
     ("sequence(lift(hand1, 0.1))", PlanError, "sequence needs a list of at least one action"),
     ("sequence([Something])", PlanError, "Something stands where an action is needed"),
-    ("wait", PlanError, "wait is no action; an action looks like"),
+    ("wait", PlanError, r"wait\(\) has 0 arguments, needed: wait\(Duration\)"),
 ]
 
 

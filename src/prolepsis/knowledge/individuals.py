@@ -10,6 +10,7 @@ from rdflib import OWL, RDF, RDFS, BNode, URIRef
 
 from prolepsis.knowledge.situation import INVERSES, Situation, Statement
 from prolepsis.knowledge.sources import NAMESPACE
+from prolepsis.knowledge.spelling import may_be_named
 from prolepsis.knowledge.turtle import Document, local_name
 from prolepsis.knowledge.vocabulary import DefaultPart, Vocabulary
 from prolepsis.knowledge.written import read_value
@@ -127,7 +128,7 @@ def _statements(document: Document, vocabulary: Vocabulary, classes: Mapping[str
             if name == "file":
                 value = str(document.path.parent / str(value))
             if entry.kind == "relation" and value not in classes:
-                known = [n for n in classes if "ShapeKind" not in classes[n]]
+                known = may_be_named(predicate, classes, vocabulary)
                 raise UnknownNameError.of("individual", str(value), known, where=f"{where}: {subject} {name}")
             found.append(Statement(subject=subject, property=name, value=value, where=where))
     return [_upright(s) for s in found]

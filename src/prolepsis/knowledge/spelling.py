@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Mapping
+
 from rdflib import OWL, RDF, RDFS, URIRef
 from rdflib.term import Node
 
@@ -46,6 +48,23 @@ _PROPERTY_PREDICATES = {
 """Predicates whose objects are properties."""
 
 
+def may_be_named(
+    predicate: Node | None, classes: Mapping[str, Collection[str]], vocabulary: Vocabulary
+) -> Collection[str]:
+    """Return the individuals that a relation may name, by its range; all but kinds of shape if that does not tell.
+
+    Args:
+        predicate: The relation.
+        classes: The told classes of each individual.
+        vocabulary: Classes and properties.
+    """
+    entry = vocabulary.properties.get(local_name(predicate)) if isinstance(predicate, URIRef) else None
+    wanted = None if entry is None else vocabulary.classes.get(entry.range)
+    if wanted is None or wanted.defined:
+        return [n for n, told in classes.items() if "ShapeKind" not in told]
+    return [n for n, told in classes.items() if wanted.name in vocabulary.told_classes(tuple(sorted(told)))]
+
+
 def refuse_unknown_names(documents: tuple[Document, ...], vocabulary: Vocabulary) -> None:
     """Check every name in the files that do not belong to the package.
 
@@ -53,20 +72,16 @@ def refuse_unknown_names(documents: tuple[Document, ...], vocabulary: Vocabulary
         UnknownNameError: With file and line, and the nearest known name.
     """
     declared = {s for d in documents for s in d.graph.subjects(RDF.type, None) if isinstance(s, URIRef)}
-    individuals = {
-        s
-        for d in documents
-        for s, kind in d.graph.subject_objects(RDF.type)
-        if isinstance(s, URIRef) and not str(kind).startswith(str(OWL)) and kind != PRO.ShapeKind
-    }
-    names = {
-        "class": sorted(vocabulary.classes),
-        "property": sorted(vocabulary.properties),
-        "individual": sorted(local_name(i) for i in individuals),
-    }
+    individuals: dict[str, set[str]] = {}
+    for document in documents:
+        for s, kind in document.graph.subject_objects(RDF.type):
+            if isinstance(s, URIRef) and isinstance(kind, URIRef) and not str(kind).startswith(str(OWL)):
+                individuals.setdefault(local_name(s), set()).add(local_name(kind))
 
-    def refuse(what: str, iri: URIRef, document: Document) -> UnknownNameError:
-        return UnknownNameError.of(what, local_name(iri), names[what], document.where(iri))
+    def refuse(what: str, iri: URIRef, document: Document, predicate: Node | None = None) -> UnknownNameError:
+        names = {"class": vocabulary.classes, "property": vocabulary.properties}
+        known = names.get(what) or may_be_named(predicate, individuals, vocabulary)
+        return UnknownNameError.of(what, local_name(iri), known, document.where(iri))
 
     for document in documents:
         if document.built_in:
@@ -78,7 +93,7 @@ def refuse_unknown_names(documents: tuple[Document, ...], vocabulary: Vocabulary
             if not isinstance(node, URIRef) or node in declared or str(node).startswith(_COMMON):
                 continue
             if predicate == RDF.type or str(node).startswith(NAMESPACE):
-                raise refuse(_role(predicate), node, document)
+                raise refuse(_role(predicate), node, document, predicate)
 
 
 def _role(predicate: Node) -> str:

@@ -16,7 +16,7 @@ from prolepsis.scene.scene import Scene
 from prolepsis.system.text_files import is_file
 from prolepsis.terms.errors import PlanError, UnknownNameError, brief, brief_list
 from prolepsis.terms.terms import Term, Value, Variable, format_value
-from prolepsis.terms.units import to_float
+from prolepsis.terms.units import read_quantity, to_float
 
 KINDS: Mapping[str, str] = {
     "hand": "name of a gripper",
@@ -244,6 +244,11 @@ def _bind(parameter: ParameterSpec, value: Value, term: Term, scene: Scene) -> A
         return _bind_file(value, where, scene)
     if parameter.kind == "force" and isinstance(value, str):
         newtons = scene.number(value, "force")
+        if newtons is None and read_quantity(value) is not None:
+            raise PlanError(
+                f"{where} must be a number [N] or a force level, not {brief(value)}; what has a unit is a parameter of "
+                'the scenario, { value = 5, unit = "N" }'
+            )
         if newtons is None:
             levels = [subject for subject, name, _ in scene.domain.values if name == "force"]
             raise UnknownNameError.of("force level", value, levels, where)

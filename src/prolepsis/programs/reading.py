@@ -72,8 +72,12 @@ def _read(plan: Value, scene: Scene) -> Maker:
         plan = Term("sequence", (plan,))
     if isinstance(plan, Variable):
         raise PlanError(f"plan: {plan.name} stands where an action is needed")
+    if isinstance(plan, str) and plan in (*ACTIONS, *COMBINATORS):
+        plan = Term(plan, ())
     if not isinstance(plan, Term):
         raise PlanError(f"plan: {brief(plan)} is no action; an action looks like lift(hand1, 0.1)")
+    if plan.functor in (",", ";", "|", "->"):
+        raise PlanError(f"plan: {brief(plan)}: actions are joined by sequence([A, B]) or together([A, B])")
     if plan.functor in COMBINATORS:
         return _read_combinator(plan, scene)
     spec = ACTIONS.get(plan.functor)

@@ -60,8 +60,18 @@ def brief_list(names: Iterable[str], most: int = LONGEST_LIST) -> str:
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """Return a question for a message, after what the nearest known name is; empty if none is near."""
-    near = difflib.get_close_matches(name, [*known], n=1) if len(name) <= LONGEST_VALUE else []
-    return f"; did you mean {brief(repr(near[0]))}?" if near else ""
+    if len(name) > LONGEST_VALUE:
+        return ""
+    known = [*known]
+    # Letters of another size, and underscores between words, are what is mistaken most often.
+    plain = {_plain(each): each for each in reversed(known)}
+    near = [_plain(name)] if _plain(name) in plain else difflib.get_close_matches(name, known, n=1)
+    near = near or difflib.get_close_matches(_plain(name), [*plain], n=1)
+    return f"; did you mean {brief(repr(plain.get(near[0], near[0])))}?" if near else ""
+
+
+def _plain(name: str) -> str:
+    return name.replace("_", "").lower()
 
 
 def error_line(error: object, most: int = LONGEST_LINE) -> str:
@@ -92,9 +102,9 @@ class UnknownNameError(InputError):
         """
         names = sorted(known)
         prefix = f"{where}: " if where else ""
-        return cls(
-            f"{prefix}no {what} named {brief(repr(name))}{did_you_mean(name, names)}; known: {brief_list(names)}"
-        )
+        told = f"{prefix}no {what} named {brief(repr(name))}{did_you_mean(name, names)}; known: "
+        # What is near is told in any case; of the others as many as there is room for in a line.
+        return cls(told + brief_list(names, min(LONGEST_LIST, max(LONGEST_LINE - len("prolepsis: ") - len(told), 20))))
 
 
 class KnowledgeError(InputError):
