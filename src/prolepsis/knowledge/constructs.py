@@ -104,7 +104,7 @@ _OWN_NODES: Mapping[Node, Words] = {
     PRO.defaultPart: frozenset({PRO.of, PRO.unless, PRO.countedBy}) | _PROVENANCE,
     PRO.curve: frozenset({PRO.of, PRO.over, PRO.point}) | _PROVENANCE,
     PRO.point: frozenset({PRO.at, PRO.value}),
-    PRO.limit: frozenset({PRO.of, PRO.above, PRO.atLeast, PRO.atMost}) | _PROVENANCE,
+    PRO.limit: frozenset({PRO.of, PRO.above, PRO.atLeast, PRO.atMost, PRO.among}) | _PROVENANCE,
 }
 """What is read of a node without a name behind one of our own words."""
 _OWN_WORDS = frozenset({HAS_UNIT, *(each for some in (*_SAID.values(), *_OWN_NODES.values()) for each in some)})

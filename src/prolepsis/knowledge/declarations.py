@@ -291,11 +291,13 @@ def _of(document: Document, iri: URIRef, node: Node, what: str, properties: Mapp
 
 def _limits(document: Document, iri: URIRef, properties: Mapping[str, Property]) -> Iterator[Property]:
     for node in document.graph.objects(iri, PRO.limit):
+        among = (local_name(o) for o in document.graph.objects(node, PRO.among) if isinstance(o, URIRef))
         yield replace(
             _of(document, iri, node, "the limit", properties),
             above=_number(document, node, PRO.above),
             at_least=_number(document, node, PRO.atLeast),
             at_most=_number(document, node, PRO.atMost),
+            among=tuple(sorted(among)),
         )
 
 

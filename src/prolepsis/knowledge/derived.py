@@ -46,7 +46,8 @@ def volume(shape: str, get: Get, file: Callable[[], str | None] = lambda: None) 
     if vessel is not None and thickness:
         bottom, side = get("bottomHoleRadius") or 0.0, get("holeRadius") or 0.0
         holes = math.pi * (bottom**2 * vessel.inner[0][1] + side**2 * thickness * (get("holeCount") or 1.0))
-        return vessel.volume - holes, "volume of its turned outline"
+        # One that is all hole is refused, with its name, when its shape is built.
+        return (vessel.volume - holes, "volume of its turned outline") if holes < vessel.volume else None
     path = file() if shape == "mesh" else None
     if path is not None:
         from prolepsis.geometry.meshes import enclosed_volume, read_surface

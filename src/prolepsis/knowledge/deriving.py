@@ -45,7 +45,7 @@ def masses_of(base: KnowledgeBase) -> Masses:
     """Return the masses of all individuals, whichever of them are stated."""
 
     def usual(name: str) -> float | None:
-        known = base.default(name, "mass") or _mass_of_volume(base, name)
+        known = base.default(name, "mass") or mass_of_volume(base, name)
         return None if known is None else float(known.value)
 
     return Masses(
@@ -72,10 +72,11 @@ def _mass(base: KnowledgeBase, name: str) -> Known | None:
     known = [base.find(part, "mass") for part in parts]
     if parts and all(known):
         return _derived(sum(float(k.value) for k in known if k is not None), "kg", f"sum of {', '.join(parts)}")
-    return _mass_of_volume(base, name)
+    return mass_of_volume(base, name)
 
 
-def _mass_of_volume(base: KnowledgeBase, name: str) -> Known | None:
+def mass_of_volume(base: KnowledgeBase, name: str) -> Known | None:
+    """Return the mass that follows from density and volume, unless one is usual of its class; None if it does not."""
     density = base.number(name, "density")
     if density is None or base.default(name, "mass") is not None:
         return None

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from prolepsis.knowledge.batches import refuse_idle_batches
-from prolepsis.knowledge.deriving import masses_of
+from prolepsis.knowledge.deriving import derive, mass_of_volume, masses_of
 from prolepsis.knowledge.vocabulary import Property
 from prolepsis.terms.errors import KnowledgeError
 
 if TYPE_CHECKING:
     from prolepsis.knowledge.knowledge_base import KnowledgeBase
+
+ALIKE = 0.01
+"""A mass and what follows from density and volume agree within this share [1]: people round."""
 
 
 def refuse_impossible_values(base: KnowledgeBase) -> None:
@@ -33,10 +37,11 @@ def refuse_impossible_values(base: KnowledgeBase) -> None:
     for name in base.individuals:
         classes = base.types.classes[name]
         for limit in (limit for c in classes for limit in base.vocabulary.classes[c].limits):
-            value = base.number(name, limit.name)
+            value = base.text(name, limit.name) if limit.among else base.number(name, limit.name)
             if value is not None and not limit.admits(value):
                 said = f"{limit.name} = {limit.shown(value)}: must be {limit.bounds} for a {base.kind(name)}"
                 raise KnowledgeError(f"{where(name, limit.name)}: {name}: {said}")
+        _refuse_twice_told(base, name, where)
         for entry in compared:
             # Of those of whom nothing of it is said, one of each kind is enough.
             said = any((name, each) in base.situation.said for each in (entry.name, *_others(entry)))
@@ -45,16 +50,34 @@ def refuse_impossible_values(base: KnowledgeBase) -> None:
         usual.add(classes)
 
 
+def _refuse_twice_told(base: KnowledgeBase, name: str, where: Callable[[str, str], str]) -> None:
+    """Refuse a capacity that follows from extents, and a mass that density and volume contradict."""
+    if base.stated(name, "capacity") is not None and derive(base, name, "capacity") is not None:
+        raise KnowledgeError(f"{where(name, 'capacity')}: {name}: its capacity follows from its extents; leave it out")
+    mass, density = base.stated(name, "mass"), base.stated(name, "density")
+    found = None if mass is None or density is None else mass_of_volume(base, name)
+    if mass is not None and found is not None and not math.isclose(mass, float(found.value), rel_tol=ALIKE):
+        raise KnowledgeError(
+            f"{where(name, 'mass')}: {name}: its mass is {mass:g} kg, but {found.source} is {found.value:g} kg; "
+            "allowed: one of mass and density, or both if they agree"
+        )
+
+
 def _others(entry: Property) -> Iterator[str]:
     yield from filter(None, (entry.at_least_of, entry.at_most_of))
 
 
 def _refuse_wrong_side(base: KnowledgeBase, name: str, entry: Property, where: str) -> None:
-    """Refuse a value on the wrong side of another one of the same individual."""
-    value = base.number(name, entry.name)
+    """Refuse a value on the wrong side of another one of the same individual.
+
+    A default gives way to what is said of the other: who makes a shell stronger need not know how it bears cushions.
+    """
+    value, said = base.number(name, entry.name), base.situation.said
     for other, words, sign in ((entry.at_least_of, "at least", 1.0), (entry.at_most_of, "at most", -1.0)):
-        bound = base.number(name, other) if other and value is not None else None
-        if value is not None and bound is not None and sign * value < sign * bound:
+        if not other or value is None or ((name, other) in said and (name, entry.name) not in said):
+            continue
+        bound = base.number(name, other)
+        if bound is not None and sign * value < sign * bound:
             raise KnowledgeError(
                 f"{where}: {name} ({base.kind(name)}): {entry.name} = {entry.shown(value)}: must be {words} its "
                 f"{other}, {entry.shown(bound)}; state both"

@@ -42,6 +42,8 @@ class Property:
     """Another property of the same individual than which values must not be less; empty if there is none."""
     at_most_of: str = ""
     """Another property of the same individual than which values must not be greater; empty if there is none."""
+    among: tuple[str, ...] = ()
+    """Individuals of which values must be one; any if empty."""
     whole: bool = False
     """True if values must be whole numbers."""
     functional: bool = False
@@ -65,21 +67,27 @@ class Property:
     @property
     def bounds(self) -> str:
         """What is allowed, in words."""
+        if self.among:
+            return " or ".join(self.among)
         parts = [f"greater than {self.above:g}"] if self.above is not None else []
         parts += [f"at least {self.at_least:g}"] if self.at_least is not None else []
         parts += [f"at most {self.at_most:g}"] if self.at_most is not None else []
         bounds = " and ".join(parts) + (f" {self.unit}" if parts and self.unit not in ("", "1") else "")
         return " ".join((["a whole number"] if self.whole else []) + ([bounds] if bounds else []))
 
-    def shown(self, value: float) -> str:
+    def shown(self, value: float | str) -> str:
         """Return a value in SI units as a message shows it, in the unit in which it is written."""
+        if isinstance(value, str):
+            return value
         unit = unit_of(self.unit)
         return f"{(value - unit.offset) / unit.factor:g} {self.unit if self.unit != '1' else ''}".rstrip()
 
-    def admits(self, value: float) -> bool:
-        """Return whether a value in SI units is within the bounds."""
+    def admits(self, value: float | str) -> bool:
+        """Return whether a value, in SI units if it is a quantity, is within the bounds."""
+        if isinstance(value, str):
+            return not self.among or value in self.among
         return not (
-            (self.whole and not value.is_integer())
+            (self.whole and not float(value).is_integer())
             or (self.above is not None and not value > to_si(self.above, self.unit))
             or (self.at_least is not None and not value >= to_si(self.at_least, self.unit))
             or (self.at_most is not None and not value <= to_si(self.at_most, self.unit))

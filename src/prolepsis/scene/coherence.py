@@ -20,6 +20,10 @@ def refuse_nonsense(kb: KnowledgeBase, bodies: Collection[str]) -> None:
     if not kb.objects:
         raise KnowledgeError("the situation names no physical object; state at least one, such as :floor a :Floor")
     for relation, subject, host in kb.relations():
+        if relation == "comprises":
+            raise KnowledgeError(
+                f"{kb.location(subject)}: {subject} comprises {host}: how is not said; state :hasPart or :contains"
+            )
         if relation == "on":
             _refuse_host(kb, subject, host, "be on", bodies)
         elif relation in HOLDING:

@@ -29,6 +29,8 @@ from prolepsis.terms.errors import KnowledgeError, UnknownNameError, brief_list
 
 ROLES = frozenset({"Container", "Stuff", "Liquid", "Furniture", "Floor", "Table"})
 """Classes that physics or recognition goes by, whatever the kinds."""
+ANGLES = ("yaw", "pitch", "roll")
+"""How a thing is turned, in the order in which it is."""
 FEATURES = ("lid",)
 """What a shape may have or not."""
 MESH_SHAPE = "mesh"
@@ -73,6 +75,7 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
     for kind in kinds:
         kind.refuse(kb, kinds)
     _refuse_useless(kb, kinds)
+    _refuse_shaped(kb, flowing)
     roles = partial(_roles, kb, ROLES.union(*(kind.roles for kind in kinds)))
     thing_of = partial(_thing, kb, roles, begins)
     individuals = Individuals(
@@ -156,6 +159,16 @@ def _refuse_useless(kb: KnowledgeBase, kinds: Sequence[Kind]) -> None:
             raise KnowledgeError(
                 f"{said[0].where}: {name} ({kb.kind(name)}) makes no use of {prop}; what does: {brief_list(classes)}"
             )
+
+
+def _refuse_shaped(kb: KnowledgeBase, flowing: Collection[str]) -> None:
+    """Refuse a shape, an extent or an angle of what flows: it has none of its own."""
+    for name in flowing:
+        for prop in ("shape", "file", *sorted(EXTENTS), *ANGLES):
+            for said in kb.situation.said.get((name, prop), ())[:1]:
+                raise KnowledgeError(
+                    f"{said.where}: {name} ({kb.kind(name)}) has no {prop} of its own: it is as what holds it"
+                )
 
 
 def _refuse_dropped(kb: KnowledgeBase, made: Collection[str]) -> None:
@@ -268,7 +281,7 @@ def _thing(
     default_height = 0.0
     if fixed and built.geoms and built.geoms[0].type != "plane":
         default_height = quantities.get("height", 0.0) / 2
-    yaw, pitch, roll = (quantities.get(angle, 0.0) for angle in ("yaw", "pitch", "roll"))
+    yaw, pitch, roll = (quantities.get(angle, 0.0) for angle in ANGLES)
     return Thing(
         name=name,
         kind=kind,

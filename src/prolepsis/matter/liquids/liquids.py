@@ -93,5 +93,11 @@ def _refuse_dry(kb: KnowledgeBase, sponge: str, liquid: str) -> None:
         raise KnowledgeError(f"{sponge} ({kind}) absorbs {liquid}, but has no absorbentCapacity; state it")
     if not kb.number(sponge, "saturation"):
         raise KnowledgeError(f"{sponge} ({kind}) absorbs {liquid}; state its :saturation, above 0 and at most 1")
+    told = [amount for amount in AMOUNTS if kb.stated(liquid, amount) is not None]
+    if told:
+        raise KnowledgeError(
+            f"{kb.location(liquid)}: {liquid} ({kb.kind(liquid)}): how much of it there is tells the saturation of "
+            f"{sponge}; leave out its {' and '.join(told)}"
+        )
     if len(kb.objects_of("absorbs", sponge)) > 1:
         raise KnowledgeError(f"{sponge} ({kind}) absorbs several liquids at the start; allowed: one")

@@ -52,7 +52,7 @@ class ShellPadding:
         self._semi_axes = np.array(thing.shape.geoms[0].size)
         self._breaking_force = shell["breakingForce"]
         # As at one point, if nothing is known.
-        self._cushioned_force = shell.get("cushionedBreakingForce", self._breaking_force)
+        self._cushioned_force = max(shell.get("cushionedBreakingForce", 0.0), self._breaking_force)
         self._thickness, self._poisson_ratio = shell["shellThickness"], shell["poissonRatio"]
         self.lifted, self.stopped = np.zeros(3), np.zeros(3)
         """How far it has come out when it fell apart [m], and what that took of its velocity [m/s]."""
