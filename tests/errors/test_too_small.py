@@ -22,7 +22,7 @@ REFUSED = {
     ":k a :Egg ; :on :floor ; :mass 50000 .": r"k/white: volume = .* m3 .mass / density.: must be",
     ":k a :Ball ; :on :floor ; :radius 2e-4 .": r"k is too small or light: k of 2.01e-08 kg and 0.4 x 0.4 x 0.4 mm has",
     ":k a :Beads ; :on :floor ; :hasPart :l . :l a :Bead ; :radius 1e-4 .": r"k is too small or light: l of",
-    ":k a :MandM ; :z 0.1 ; :length 2e-3 ; :breadth 2e-3 ; :mass 1e-6 .": r"k/shell is too small or light: k/shell",
+    ":k a :MandM ; :z 0.1 ; :length 4e-3 ; :breadth 4e-3 ; :mass 1e-8 .": r"k is too small or light: k/kernel of",
     ":k a :Water ; :on :floor ; :volume 1e-300 .": r"k: volume = 1e-300: must be finite and at least 1e-10",
     ":k a :Solid ; :shape :openBox ; :z 1 ; :length 0.1 ; :width 0.1 ; :height 0.1 ; :mass 1 ; :thickness 0.06 .": (
         r"k .Solid.: thickness 0.06 m leaves no cavity; allowed: less than half its length and width"
@@ -35,6 +35,18 @@ def test_what_is_too_small_or_large_is_refused(turtle: str, message: str) -> Non
     with pytest.raises(KnowledgeError, match=message) as caught:
         compile_world(scene(FLOOR + turtle, particles=100))
     assert "mjMINVAL" not in str(caught.value)
+
+
+@pytest.mark.parametrize("egg", ["MandM", "HardBoiledEgg", "Egg", "Coconut"])
+def test_a_shell_that_leaves_no_room_is_refused(egg: str) -> None:
+    with pytest.raises(KnowledgeError, match=r"k/shell .\w+.: shellThickness = 0.05 m: allowed: at most .* a quarter"):
+        scene(f"{FLOOR}:k a :{egg} ; :on :floor .", {"k/shell.shellThickness": 0.05})
+
+
+@pytest.mark.parametrize("extents", [":length 1e-3", ":height 2.0 ; :width 1e-2", ":length 0.5 ; :width 5e-4"])
+def test_a_thin_sheet_soaks_up(extents: str) -> None:
+    made = scene(f"{FLOOR}:s a :Sponge ; :on :floor ; :absorbs :w ; :saturation 0.5 ; {extents} . :w a :Water .")
+    assert len(made.pools[0].position) == 2000
 
 
 SOLIDS = (

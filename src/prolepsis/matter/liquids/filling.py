@@ -251,7 +251,8 @@ def _soaked(liquid: Thing, sponge: tuple[Thing, ...], count: int) -> FloatArray:
     matter = posed(sponge[0])
     step = float(np.prod(matter.high - matter.low) / count) ** (1 / 3)
     while True:
-        points = lattice(matter.low + step / 2, matter.high, step)
+        # Of a thin sheet one layer in the middle, until the lattice is finer.
+        points = lattice(matter.low + np.minimum(step, matter.high - matter.low) / 2, matter.high, step)
         points = points[matter.distance(points) < 0]
         if len(points) >= count:
             # Every so many, so that no corner is left dry.

@@ -21,6 +21,8 @@ from prolepsis.terms.errors import KnowledgeError
 
 SLENDEREST, FLATTEST = 0.5, 2.0
 """Least and greatest breadth over length of a shell that is cut into pieces [1]."""
+THICKEST = 0.25
+"""Greatest thickness of a shell over its least half width [1]; a chocolate drop's is a seventh."""
 NEEDED = (
     "breakingForce",
     "shellThickness",
@@ -94,6 +96,12 @@ def shelled(individuals: Individuals, whole: Thing) -> Made:
     for needed in NEEDED:
         if needed not in shell.quantities:
             raise KnowledgeError(f"{shell.name} ({shell.kind}) has no {needed}; state it")
+    thickness, thickest = shell.quantities["shellThickness"], THICKEST * min(half_length, half_breadth)
+    if thickness > thickest:
+        raise KnowledgeError(
+            f"{kb.location(shell.name)}: {shell.name} ({shell.kind}): shellThickness = {thickness:g} m: allowed: at "
+            f"most {thickest:.3g} m, a quarter of the least half width of {whole.name}; a thicker wall is no shell"
+        )
     inside = [part for part in parts if part is not shell]
     stuffs = [
         replace(part, shape=Shape(colour=colour_of(kb, part.name)))
