@@ -37,7 +37,7 @@ REFUSED: list[tuple[str, str, str]] = [
     (
         ":cup1 a :Cup ;",
         ":cup1 a :Block ;",
-        "cup1 contains a liquid at the start, but as it stands it has no cavity that would hold any",
+        "liq1 cannot be in the Block cup1, which has no cavity; needed: a Container",
     ),
     (":volume 0.0002", ":volume 0.0004", "liq1: 400 ml are to be in cup1, which holds 327.2 ml as it stands"),
     (":volume 0.0002", ":fill 1.1", "liq1: fill = 1.1: must be finite and at least 0.0001 and at most 1"),

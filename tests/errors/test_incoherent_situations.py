@@ -72,7 +72,8 @@ INCOHERENT = {
     f":l a :Water ; {WATER} ; :on :shell1 . {EGG}": "l cannot be on the EggShell shell1",
     f"{BLOCK.replace(':table1', ':block1')}": "block1 cannot be on itself",
     f"{BLOCK.replace(':table1', ':b')} {BLOCK.replace('block1', 'b').replace(':table1', ':block1')}": "in a circle",
-    f"{BLOCK.replace(':table1', ':cup1')} :block1 :contains :cup1 . :cup1 a :Cup .": "in a circle",
+    ":cup1 a :Cup ; :contains :cup2 . :cup2 a :Cup ; :contains :cup1 .": "in a circle",
+    f"{BLOCK.replace(':on :table1 ;', ':z 1 ;')} :block1 :contains :cup1 . :cup1 a :Cup .": "has no cavity",
 }
 
 

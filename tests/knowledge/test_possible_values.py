@@ -70,6 +70,19 @@ def test_a_mass_and_a_density_that_agree_are_taken(tmp_path: Path) -> None:
     [
         (":w a :Water ; :on :floor ; :volume '5 ml' ; :shape :sphere .", "w .Water. has no shape of its own"),
         (":w a :Water ; :on :floor ; :volume '5 ml' ; :yaw 30 .", "w .Water. has no yaw of its own"),
+        (":w a :Water ; :on :floor ; :volume '5 ml' ; :z 1 .", "w .Water. has no z of its own"),
+        (
+            ":e a :Egg ; :on :floor ; :hasPart :q . :q a :EggWhite ; :x 3 .",
+            "q .EggWhite. has no x of its own",
+        ),
+        (
+            ":h a :Gripper ; :z 1 ; :contains :b . :b a :Block .",
+            "in the Gripper h, which has no cavity",
+        ),
+        (
+            ":e a :Coconut ; :on :floor ; :hasPart :q . :q a :ShellContent .",
+            "has no mass, since its part q",
+        ),
         (":k a :Beads ; :on :floor ; :shape :sphere .", "k .Beads. has no shape of its own"),
         (
             ":b a :Block ; :on :floor ; :comprises :floor .",

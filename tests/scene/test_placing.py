@@ -86,7 +86,7 @@ def test_what_is_not_lowered_cannot_be_on_anything() -> None:
         ),
         (":cup1 :contains :b . :b :on :floor .", "b .Block. is in several places: in cup1, on floor; allowed: one"),
         (":cup1 :contains :b . :cup2 :contains :b .", "b .Block. is in several places: in cup1, in cup2; allowed: one"),
-        (":slab :contains :b .", "b cannot be in the Block slab: lowered onto it, it stays on top; needed: a vessel"),
+        (":slab :contains :b .", "b cannot be in the Block slab, which has no cavity; needed: a Container"),
         (":cup1 :contains :b ; :pitch 180 .", "b cannot be in the Cup cup1: lowered onto it, it stays on top"),
         (":cup1 :contains :b ; :lid true .", "b cannot be in the Cup cup1: lowered onto it, it stays on top"),
     ],

@@ -16,7 +16,7 @@ from prolepsis.knowledge.situation import MOST_INDIVIDUALS
 from prolepsis.log.domain import Domain, with_things
 from prolepsis.log.happenings import HappeningType
 from prolepsis.log.things import FIXED, FREE, Thing
-from prolepsis.scene.coherence import refuse_nonsense
+from prolepsis.scene.coherence import ANGLES, refuse_nonsense, refuse_placed, refuse_shaped
 from prolepsis.scene.colours import colour_of
 from prolepsis.scene.extent import place_on, support
 from prolepsis.scene.kind import Channel, Draft, Individuals, Kind, Made, RestingHeight, Roles
@@ -29,8 +29,6 @@ from prolepsis.terms.errors import KnowledgeError, UnknownNameError, brief_list
 
 ROLES = frozenset({"Container", "Stuff", "Liquid", "Furniture", "Floor", "Table"})
 """Classes that physics or recognition goes by, whatever the kinds."""
-ANGLES = ("yaw", "pitch", "roll")
-"""How a thing is turned, in the order in which it is."""
 FEATURES = ("lid",)
 """What a shape may have or not."""
 MESH_SHAPE = "mesh"
@@ -75,7 +73,8 @@ def compose(kb: KnowledgeBase, kinds: Sequence[Kind], resting_height: RestingHei
     for kind in kinds:
         kind.refuse(kb, kinds)
     _refuse_useless(kb, kinds)
-    _refuse_shaped(kb, flowing)
+    refuse_shaped(kb, flowing)
+    refuse_placed(kb, flowing)
     roles = partial(_roles, kb, ROLES.union(*(kind.roles for kind in kinds)))
     thing_of = partial(_thing, kb, roles, begins)
     individuals = Individuals(
@@ -159,16 +158,6 @@ def _refuse_useless(kb: KnowledgeBase, kinds: Sequence[Kind]) -> None:
             raise KnowledgeError(
                 f"{said[0].where}: {name} ({kb.kind(name)}) makes no use of {prop}; what does: {brief_list(classes)}"
             )
-
-
-def _refuse_shaped(kb: KnowledgeBase, flowing: Collection[str]) -> None:
-    """Refuse a shape, an extent or an angle of what flows: it has none of its own."""
-    for name in flowing:
-        for prop in ("shape", "file", *sorted(EXTENTS), *ANGLES):
-            for said in kb.situation.said.get((name, prop), ())[:1]:
-                raise KnowledgeError(
-                    f"{said.where}: {name} ({kb.kind(name)}) has no {prop} of its own: it is as what holds it"
-                )
 
 
 def _refuse_dropped(kb: KnowledgeBase, made: Collection[str]) -> None:
@@ -277,6 +266,9 @@ def _thing(
     fixed = kb.is_a(name, "Furniture")
     built = Shape() if later is None or shape in later else _built(kb, name, shape, quantities)
     if not fixed and built.geoms and "mass" not in quantities:
+        for part in kb.parts(name):
+            if kb.number(part, "mass") is None:
+                raise KnowledgeError(f"{where} has no mass, since its part {part} ({kb.kind(part)}) has none; state it")
         raise KnowledgeError(f"{where} has no mass and no density to derive it from")
     default_height = 0.0
     if fixed and built.geoms and built.geoms[0].type != "plane":
