@@ -233,6 +233,11 @@ def _class(entry: ClassEntry, knowledge: KnowledgeBase) -> str:
         f"({part.certainty}: {part.source})"
         for part in entry.parts
     ]
+    lines += [
+        f"  limit: {limit.name} {limit.bounds}"
+        for name in (entry.name, *above)
+        for limit in vocabulary.classes[name].limits
+    ]
     rows = [("default", "value", "sd", "unit", "from", "how known")]
     for name in sorted(vocabulary.properties):
         found = knowledge.default_of((entry.name, *above), name)

@@ -43,6 +43,11 @@ def _class_lines(base: KnowledgeBase, entry: ClassEntry) -> list[str]:
         f"  part by default: {part.kind}{f', {part.counted_by} of them' if part.counted_by else ''} ({part.source})"
         for part in entry.parts
     ]
+    lines += [
+        f"  limit: {limit.name} {limit.bounds}"
+        for class_name in (entry.name, *above)
+        for limit in base.vocabulary.classes[class_name].limits
+    ]
     seen: set[str] = set()
     for class_name in (entry.name, *above):
         for default in base.vocabulary.classes[class_name].defaults:

@@ -73,6 +73,8 @@ class Property:
         parts += [f"at least {self.at_least:g}"] if self.at_least is not None else []
         parts += [f"at most {self.at_most:g}"] if self.at_most is not None else []
         bounds = " and ".join(parts) + (f" {self.unit}" if parts and self.unit not in ("", "1") else "")
+        others = (("at least", self.at_least_of), ("at most", self.at_most_of))
+        bounds = " and ".join([*filter(None, [bounds]), *(f"{words} its {other}" for words, other in others if other)])
         return " ".join((["a whole number"] if self.whole else []) + ([bounds] if bounds else []))
 
     def shown(self, value: float | str) -> str:
