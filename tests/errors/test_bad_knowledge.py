@@ -34,6 +34,7 @@ PREFIX = "@prefix : <https://w3id.org/prolepsis#> .\n"
         (':egg1 a :Egg ; :mass "nan" .', r"mass = nan: must be finite"),
         (':egg1 a :Egg ; :mass "inf" .', r"mass = inf: must be finite"),
         (":egg1 a :Egg ; :friction -1 .", r"friction = -1: must be finite and at least 1e-05"),
+        (':egg1 a :Egg ; :mass "0,05 kg" .', r"mass = '0,05 kg': decimals are behind a point, as in 1\.5"),
         (':egg1 a :Egg ; :mass "5 N" .', r"mass = '5 N': unit 'N' does not fit: a unit such as 'kg'"),
         (':egg1 a :Egg ; :mass "5 stone" .', r"no unit 'stone'"),
         (":yolk1 a :EggYolk .", r"yolk1 is part of nothing: EggYolk must be a part of a Egg"),

@@ -39,6 +39,8 @@ def read_value(entry: Property, node: Node | str | float, *, where: str) -> floa
     if read is None:
         raise KnowledgeError(f"{where}: {entry.name} must be a number, with or without a unit, not {brief(repr(text))}")
     number, unit = read
+    if unit.startswith(","):
+        raise KnowledgeError(f"{where}: {entry.name} = {brief(repr(text))}: decimals are behind a point, as in 1.5")
     try:
         value = to_si(number, unit or entry.unit, entry.unit)
     except InputError as error:
