@@ -81,9 +81,16 @@ def test_what_is_shorter_than_a_tick_is_a_tick_long() -> None:
     assert TWO.ask("equals(0.50001-0.50002, 0.5-0.501), allen(starts, 0.5-0.50001, 0.5-1)")
 
 
-@pytest.mark.parametrize("time", ["1.0e300", "-1.0e300", "inf", "1000000000000000000000"])
+@pytest.mark.parametrize("time", ["1.0e300", "-1.0e300", "1000000000000000000000"])
 def test_times_of_no_tick_are_times_like_others(time: str) -> None:
     assert TWO.ask(f"T is {time}, holds(F, T)") == []
+
+
+@pytest.mark.parametrize("time", ["inf", "nan", "-inf"])
+@pytest.mark.parametrize("goal", ["holds(F, T)", "holds(F, T-_)", "evidence(closing(hand1), T, level, L)"])
+def test_what_is_no_number_of_seconds_is_no_time(goal: str, time: str) -> None:
+    with pytest.raises(GoalError, match=rf"^not a time: {time}; a time is a finite number of seconds, or an interval"):
+        TWO.ask(f"T is {time}, {goal}")
 
 
 def test_an_interval_that_ends_before_it_starts_is_none() -> None:

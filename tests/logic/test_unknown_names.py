@@ -116,6 +116,71 @@ def test_what_nothing_is_called_is_an_error(session: Session, goal: str, message
     assert "\n" not in str(refused.value) and len(str(refused.value)) < 400
 
 
+COMPARED = [
+    ("holds(broken(X), T), X = eggg1", "no individual named eggg1 .*; did you mean egg1"),
+    ("holds(broken(X), T), eggg1 == X", "no individual named eggg1"),
+    ("holds(broken(X), T), X \\= eggg1", "no individual named eggg1"),
+    ("holds(broken(X), T), Y = X, Y = Z, Z \\== eggg1", "no individual named eggg1"),
+    ("holds(broken(X), T), member(X, [egg1, eggg1])", "no individual named eggg1"),
+    ("holds(F, T), objOf(F, X), memberchk(X, [eggg1])", "no individual named eggg1"),
+    ("has_part(X, Y), Y = eggshel", "no individual named eggshel .*; did you mean eggshell1"),
+    ("\\+ (holds(broken(X), _), X = eggg1)", "no individual named eggg1"),
+    ("aggregate_all(count, (holds(broken(X), _), X \\= eggg1), N)", "no individual named eggg1"),
+    # Of facts that are taken apart.
+    ("holds(F, T), F = broken(eggg1)", "no individual named eggg1"),
+    ("holds(F, T), F =.. [brocken|_]", "no fluent named brocken .*; did you mean broken"),
+    ("holds(F, T), F =.. [broken, eggg1]", "no individual named eggg1"),
+    ("holds(F, T), functor(F, brocken, _)", "no fluent named brocken"),
+    ("holds(F, T), functor(F, broken, 2)", r"no fluent broken/2; it is written broken\(X\)"),
+    ("occurs(E, T), functor(E, N, _), N = faling", "no event named faling .*; did you mean falling"),
+    ("holds(F, T), arg(1, F, eggg1)", "no individual named eggg1"),
+    # Of what is collected.
+    ("findall(X, holds(broken(X), _), L), member(eggg1, L)", "no individual named eggg1"),
+    ("findall(X, holds(broken(X), _), L), L == [eggg1]", "no individual named eggg1"),
+    ("findall(X-S, holds(broken(X), S-_), L), memberchk(eggg1-_, L)", "no individual named eggg1"),
+    ("setof(X, T^holds(broken(X), T), L), subtract(L, [eggg1], M)", "no individual named eggg1"),
+    ("findall(X, holds(broken(X), _), L), include([Y]>>(Y = eggg1), L, M)", "no individual named eggg1"),
+    ("maplist([X]>>holds(broken(X), _), [egg1, eggg1])", "no individual named eggg1"),
+    ("aggregate_all(max(S, X), holds(broken(X), S-_), max(M, eggg1))", "no individual named eggg1"),
+    ("forall(member(X, [eggg1]), holds(broken(X), _))", "no individual named eggg1"),
+    # Of other kinds.
+    ("instance_of(X, C), C = 'Eggg'", "no class named 'Eggg'"),
+    ("value(egg1, P, V), P = color", "no property named color"),
+    ("value(egg1, mass, V), V = heavy", r"^mass is a number \[kg\], not heavy$"),
+    ("evidence(E, T, N, V), N = forse", "no evidence named forse"),
+    ("evidence(E, T, outcome, V), member(V, [done, dropt])", "no value of outcome named dropt"),
+    ("unit(mass, kilo)", "no unit named kilo .*; known: .*kg"),
+    ("unit(N, U), U = kilo", "no unit named kilo"),
+    ("in(R, holds(broken(X), T)), R = rum1", "no run named rum1"),
+    ("holds(broken(X), T), T = abc", "^not an interval: abc"),
+    ("holds(broken(X), S-E), S = abc", "^not a time: abc; a time is a finite number"),
+]
+
+
+@pytest.mark.parametrize(("goal", "message"), COMPARED)
+def test_what_a_variable_is_compared_with_is_known_as_what_it_stands_for(
+    session: Session, goal: str, message: str
+) -> None:
+    with pytest.raises(GoalError, match=message):
+        session.ask(RUN1, goal)
+
+
+@pytest.mark.parametrize(
+    ("goal", "answer"),
+    [
+        # What one branch gives when there is none bears on nothing in the other.
+        ("(holds(broken(eggshell1), S-_) -> true ; S = never)", "never"),
+        ("(X = nobody ; holds(broken(X), _)), S = X", "nobody"),
+        # Known as one of two kinds is known.
+        ("holds(broken(S), _), unit(U, _), (U = S ; U = mass), S = egg1", "egg1"),
+        ("findall(X, holds(broken(X), _), L), atomic_list_concat(L, ', ', Text), Text \\= nothing, S = Text", "egg1"),
+        ("occurs(E, _), argsOf(E, [_, _, L]), L \\= force99, S = L", "force7"),
+    ],
+)
+def test_what_a_variable_stands_for_elsewhere_is_not_asked_of_it(session: Session, goal: str, answer: str) -> None:
+    assert session.ask(RUN1, goal)[0]["S"] == answer
+
+
 @pytest.mark.parametrize(
     "goal",
     [
@@ -248,7 +313,19 @@ def test_a_fact_that_occurs_with_other_arguments_is_told_and_not_denied(session:
         session.ask(RUN1, "occurs(grasping(hand1, egg1, Force, Height), T)")
 
 
-@pytest.mark.parametrize("goal", ["holds(broken(egg1), T), T > 1", "1 >= T, occurs(E, T)", "holds(F, T), T - 1 =:= 0"])
+@pytest.mark.parametrize(
+    "goal",
+    [
+        "holds(broken(egg1), T), T > 1",
+        "1 >= T, occurs(E, T)",
+        "holds(F, T), T - 1 =:= 0",
+        "holds(F, T), X is T / 2",
+        "aggregate_all(max(T), holds(broken(egg1), T), M)",
+        "aggregate_all(sum(T), (holds(F, T), fluentT(F, broken)), M)",
+        "aggregate_all(min(T, F), holds(F, T), min(_, M))",
+        "findall(T, holds(F, T), Ts), max_list(Ts, M)",
+    ],
+)
 def test_an_interval_is_not_compared_as_if_it_were_a_number(session: Session, goal: str) -> None:
     with pytest.raises(GoalError, match="gives an interval and no number to compare; write S-E for it"):
         session.ask(RUN1, goal)
@@ -294,7 +371,7 @@ def test_no_is_not_all_that_is_said_of_an_instant_outside_the_log(session: Sessi
     [
         "holds(F, T), fluentT(F, Type)",
         "\\+ holds(broken(egg1), 99)",
-        "holds(broken(X), T), X \\= table9",
+        "holds(broken(X), T), X \\= table1",
         "holds(Broken, T), fluentT(Broken, broken)",
         "holds(broken(Egg1), T)",
         "instance_of(Egg, Class)",

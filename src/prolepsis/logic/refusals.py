@@ -18,6 +18,8 @@ RELATIONS = (
     "before, after, meets, met_by, overlaps, overlapped_by, starts, started_by, during, contains, "
     "finishes, finished_by, equals"
 )
+NO_NUMBERS = {"1.5NaN": "nan", "1.0Inf": "inf", "-1.0Inf": "-inf"}
+"""How a goal writes what Prolog prints so."""
 SHOWN = 120
 """Characters of a goal that a message shows."""
 
@@ -64,12 +66,14 @@ def refusal(status: str, body: str, goal: str, time_limit: float, timeline: Time
         case "number":
             name, unit, value = body.split("\n")
             return GoalError(f"{name} is a number{f' [{unit}]' if unit != '1' else ''}, not {brief(value)}")
-        case "compared":
-            return GoalError(
-                f"{brief(body)} gives an interval and no number to compare; write S-E for it, and compare S or E"
-            )
+        case "computed":
+            told = "gives an interval and no number to compare; write S-E for it, and compare S, E or E-S, its length"
+            return GoalError(f"{brief(body)} {told}")
         case "interval":
             return GoalError(f"not an interval: {brief(body)}; an interval is Start-End, with Start before End")
+        case "instant":
+            told = "a time is a finite number of seconds, or an interval Start-End"
+            return GoalError(f"not a time: {NO_NUMBERS.get(body, brief(body))}; {told}")
         case "time":
             return GoalLimitError(f"time limit of {time_limit:g} s reached: {shown(goal)}")
         case "memory":

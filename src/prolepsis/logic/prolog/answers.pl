@@ -18,7 +18,7 @@
 :- use_module(library(solution_sequences)).
 :- use_module(runs).
 :- use_module(guard).
-:- use_module(compared).
+:- use_module(known).
 :- use_module(names).
 :- use_module(not_as_meant).
 :- use_module(open_ends).
@@ -63,13 +63,13 @@ not_as_meant(Run, Goal, Bindings, Read) :-
     append(Found, Read).
 
 named_kind(type(Kind), Of) => Of = Kind.
+named_kind(name(Kind), Of) => Of = Kind.
 named_kind(value(Name), Of) => atom_concat('value of ', Name, Of).
 named_kind(Kind, Of) => Of = Kind.
 
 found(Run, Goal0, Values, Limit, Answers) :-
     check_goal(Goal0),
     check_names(Goal0),
-    check_compared(Goal0),
     order_goal(Goal0, Goal),
     % Nothing that is permitted changes a fact; should it ever, snapshot/1 undoes it.
     snapshot(findall(Answer, limit(Limit, distinct(Answer, answer(Run, Goal, Values, Answer))), Answers)).
@@ -295,8 +295,10 @@ refusal(unknown_name(Kind, Named), ["name\n", Of, "\n", Text, "\n", Known]) :-
 refusal(no_value(Name), ["related\n", Name]).
 refusal(no_number(Name, Unit, Value), ["number\n", Name, "\n", Unit, "\n", Text]) :-
     short_text(Value, Text).
-refusal(compared_interval(Reader), ["compared\n", Text]) :-
+refusal(computed_interval(Reader), ["computed\n", Text]) :-
     short_text(Reader, Text).
+refusal(no_time(Value), ["instant\n", Text]) :-
+    short_text(Value, Text).
 refusal(unknown_relation(Name), ["relation\n", Text]) :-
     short_text(Name, Text).
 refusal(not_permitted(Goal), [Kind, Text]) :-

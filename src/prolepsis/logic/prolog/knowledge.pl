@@ -15,7 +15,6 @@
 :- use_module(classes).
 :- use_module(runs).
 :- use_module(ticks).
-:- use_module(timeline, [must_be_time/1]).
 :- use_module(vocabulary).
 
 %!  instance_of(?Individual, ?Class) is nondet.
@@ -34,6 +33,7 @@ instance_of(Individual, Class) :-
 %   for may come and go: an egg is a BrokenThing once it is broken, a cup a LiquidContainer while a liquid is in it.
 
 instance_of(Individual, Class, Instant), number(Instant) =>
+    must_be_time(Instant),
     current_run(Run),
     snapped(Run, Instant, Time),
     belongs(Run, Individual, Class, Start, End),

@@ -3,7 +3,6 @@
 :- module(near, [ near_miss/3 ]).       % ?FluentOrEvent, ?Interval, ?Margin
 :- use_module(runs).
 :- use_module(ticks).
-:- use_module(timeline, [must_be_time/1]).
 
 %!  near_miss(?Term, ?Interval, ?Margin) is nondet.
 %
@@ -13,7 +12,8 @@
 near_miss(Term, Time, Margin) :-
     current_run(Run),
     (   number(Time)
-    ->  snapped(Run, Time, Instant),
+    ->  must_be_time(Time),
+        snapped(Run, Time, Instant),
         Run:near(Term, Start, End, Margin),
         Start =< Instant,
         Instant < End

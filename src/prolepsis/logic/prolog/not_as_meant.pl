@@ -6,7 +6,8 @@
           ]).
 :- use_module(library(lists)).
 :- use_module(library(occurs)).
-:- use_module(names).
+:- use_module(known).
+:- use_module(positions).
 :- use_module(runs).
 
 %!  read_as_variable(+Goal, +Bindings, -Variable, -Kind, -Name) is nondet.
@@ -21,6 +22,12 @@ read_as_variable(Goal, Bindings, Variable, Kind, Name) :-
     what(Kind),
     folded(Variable, Folded),
     once(( candidate(Kind, Known), named_as(Known, Kind, Name), functor(Name, Plain, _), folded(Plain, Folded) )).
+
+%   what(+Kind): of a Kind that is not an individual, which may be there in one run and not in another.
+
+what(Kind) :-
+    ( fact_kind(Kind) ; memberchk(Kind, [type(_), class, property, evidence, quantity]) ),
+    !.
 
 %   A fact is named by a term.
 

@@ -16,6 +16,7 @@
 :- use_module(answers).
 :- use_module(chronicles).
 :- use_module(guard).
+:- use_module(known).
 :- use_module(names).
 :- use_module(query).
 :- use_module(runs).

@@ -7,6 +7,9 @@
           [ snapped/2,                  % ?Time, ?Exact
             snapped/3,                  % +Run, ?Time, ?Exact
             snapped_ends/4,             % +Start, +End, -ExactStart, -ExactEnd
+            must_be_time/1,             % ?Time
+            must_be_interval/1,         % ?Time
+            must_be_instant/1,          % ?Time
             ticks_apart/4               % +Later, +Earlier, +OtherLater, +OtherEarlier
           ]).
 
@@ -43,6 +46,32 @@ nearest(Run, Time, Exact) :-
 
 in_float(Time, Exact), float(Time) => Exact = Time.
 in_float(Time, Exact) => Exact is float(Time).
+
+%!  must_be_time(?Time) is det.
+%!  must_be_interval(?Time) is det.
+%!  must_be_instant(?Time) is det.
+%
+%   Check that Time is not known yet, or is a number or an interval Start-End, each of them a number or not known yet.
+
+must_be_time(Time), number(Time) => must_be_instant(Time).
+must_be_time(Time) => must_be_interval(Time).
+
+must_be_interval(Time), var(Time) => true.
+must_be_interval(Time) =>
+    (   Time = Start-End,
+        ( var(Start) ; number(Start) ),
+        ( var(End) ; number(End) ),
+        \+ ( number(Start), number(End), Start >= End )
+    ->  must_be_instant(Start),
+        must_be_instant(End)
+    ;   throw(error(type_error(interval, Time), _))
+    ).
+
+must_be_instant(Time) :-
+    (   ( var(Time) ; number(Time), Time > -inf, Time < inf )
+    ->  true
+    ;   throw(refused(no_time(Time)))
+    ).
 
 %   Ticks that floats tell apart.
 

@@ -20,7 +20,6 @@
             matching/5,                 % +Kind, ?Term, ?Interval, ?Type, ?Object
             args_of/3,                  % ?Term, ?Interval, ?Arguments
             same_type/2,                % +Type, +Type
-            must_be_time/1,             % ?Time
             interval/3                  % ?Interval, -Start, -End
           ]).
 :- use_module(library(error)).
@@ -42,6 +41,7 @@ holds(Fluent, Time) :-
 
 holds_at(Fluent, Instant) :-
     must_be(number, Instant),
+    must_be_instant(Instant),
     holds(Fluent, Instant).
 
 %!  occurs(?Event, ?Interval) is nondet.
@@ -61,6 +61,7 @@ matching(Kind, Term, Time, Type, Object) :-
     found(Time, Kind, Term, Type, Object, Run).
 
 found(Instant, Kind, Term, Type, Object, Run), number(Instant) =>
+    must_be_time(Instant),
     snapped(Run, Instant, Time),
     narrowed(Term, Type, Object, Kind, Run, Start, End, _),
     Start =< Time,
@@ -74,21 +75,6 @@ found(Time, Kind, Term, Type, Object, Run) =>
     snapped(Run, Start, S),
     snapped(Run, End, E),
     narrowed(Term, Type, Object, Kind, Run, S, E, _).
-
-%!  must_be_time(?Time) is det.
-%
-%   Check that Time, which is no number, may be an interval: Start-End, each of them a number or not known yet.
-
-must_be_time(Time) :-
-    (   var(Time)
-    ->  true
-    ;   Time = Start-End,
-        ( var(Start) ; number(Start) ),
-        ( var(End) ; number(End) ),
-        \+ ( number(Start), number(End), Start >= End )
-    ->  true
-    ;   throw(error(type_error(interval, Time), _))
-    ).
 
 narrowed(Term, Type, Object, Kind, Run, S, E, Id), var(Term), atom(Object) =>
     ids_with(Object, Kind, Run, Ids),
@@ -247,6 +233,7 @@ instance(Term, Time, Run, Id) :-
 %   row_at(?Time, +Kind, ?Term, ?Id, +Run): Term is a fact over the interval Time, or one that lasts at that instant.
 
 row_at(Instant, Kind, Term, Id, Run), number(Instant) =>
+    must_be_time(Instant),
     snapped(Run, Instant, Time),
     row(Kind, Term, Start, End, Id, Run),
     Start =< Time,
@@ -290,6 +277,7 @@ evidence(Term, Time, Name, Value) :-
     ;   instance(Term, Time, Run, Id),
         Run:proof(Id, Name, Value)
     ).
+
 
 %!  fact(?Run, ?Id, ?Type, ?Arguments, ?Start, ?End) is nondet.
 %
