@@ -93,6 +93,12 @@ def test_what_is_no_number_of_seconds_is_no_time(goal: str, time: str) -> None:
         TWO.ask(f"T is {time}, {goal}")
 
 
+@pytest.mark.parametrize("goal", ["E = {}", "E == {}", "member(E, [7, {}])", "T = 0-E, T = S-{}", "T = 0-{}"])
+def test_two_is_two_in_what_is_compared_afterwards(goal: str) -> None:
+    asked = [TWO.ask("occurs(closing(hand1), T), T = S-E, " + goal.replace("{}", two)) for two in ("2.0", "2")]
+    assert asked[0] and repr(asked[0]) == repr(asked[1])
+
+
 def test_an_interval_that_ends_before_it_starts_is_none() -> None:
     with pytest.raises(GoalError, match=r"not an interval: 2-2\.0"):
         TWO.ask("meets(2-2.0, T)")

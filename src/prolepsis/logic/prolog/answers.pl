@@ -20,6 +20,7 @@
 :- use_module(guard).
 :- use_module(known).
 :- use_module(names).
+:- use_module(numbers).
 :- use_module(not_as_meant).
 :- use_module(open_ends).
 :- use_module(order).
@@ -69,10 +70,16 @@ named_kind(Kind, Of) => Of = Kind.
 
 found(Run, Goal0, Values, Limit, Answers) :-
     check_goal(Goal0),
-    check_names(Goal0),
-    order_goal(Goal0, Goal),
+    apart(Goal0, Skeleton, Numbers),
+    check_names(Goal0, Skeleton, Numbers),
+    known_run(Run, Module),
+    as_kept(Module, Skeleton, Numbers, Kept),
+    maplist(becomes, Numbers, Kept),
+    order_goal(Skeleton, Goal),
     % Nothing that is permitted changes a fact; should it ever, snapshot/1 undoes it.
     snapshot(findall(Answer, limit(Limit, distinct(Answer, answer(Run, Goal, Values, Answer))), Answers)).
+
+becomes(Number-_, Number).
 
 answer(Run, Goal, Values, Answer) :-
     with_run(Run, query:Goal),

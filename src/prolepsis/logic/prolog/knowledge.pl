@@ -61,7 +61,8 @@ has_part(Whole, Part) :-
 
 value(Individual, Property, Value) :-
     current_run(Run),
-    Run:value(Individual, Property, Value).
+    Run:value(Individual, Property, Known),
+    equal_value(Value, Known).
 
 %!  subclass_of(?Class, ?Above) is nondet.
 %

@@ -9,8 +9,9 @@
 %   True if the fluent or event Term was nearly so over Interval, or at the instant Interval if that is a number, and
 %   what decides it came up to Margin of its threshold, from 0.8 up to 1.
 
-near_miss(Term, Time, Margin) :-
+near_miss(Term0, Time, Margin) :-
     current_run(Run),
+    spelt_term(Run, Term0, Term),
     (   number(Time)
     ->  must_be_time(Time),
         snapped(Run, Time, Instant),

@@ -8,6 +8,7 @@
         type(Type, Kind)            the types that occur
         near(Term, Start, End, Margin)   what nearly was so
         wide(Type)                  those with more than two arguments
+        spelling(Float, Number)     how a whole number is written that is an argument: 10 or 10.0, as it first occurs
         symmetric(Type)             those whose two arguments are alike
         declared(Kind, Type, Arity) what else may occur, as far as Python has been told
         instance/2, part/2, value/3, unit/2       domain knowledge
@@ -26,6 +27,9 @@
             known_run/2,                % ?Run, -Module
             current_run/1,              % -Module
             with_run/2,                 % +Run, :Goal
+            spelt/3,                    % +Module, +Number, -Kept
+            spelt_term/3,               % +Module, +Term, -Kept
+            equal_value/2,              % ?Value, +Kept
             row/6,                      % +Kind, ?Term, ?Start, ?End, ?Id, +Module
             table_row/9,                % +Kind, +Module, ?Type, ?First, ?Second, ?Term, ?Start, ?End, ?Id
             flat/4                      % +Term, -Type, -First, -Second
@@ -51,6 +55,7 @@ table(wide/1).
 table(tick/2).
 table(lasts/1).
 table(near/4).
+table(spelling/2).
 table(symmetric/1).
 table(declared/3).
 table(instance/2).
@@ -108,23 +113,83 @@ read_rows(In, Module, Id0, Last) :-
         read_rows(In, Module, Id, Last)
     ).
 
-add_row(fluent(Term, Start, End), Module, Id0, Id) =>
+add_row(fluent(Term0, Start, End), Module, Id0, Id) =>
     Id is Id0+1,
+    kept_term(Module, Term0, Term),
     flat(Term, Type, First, Second),
     assertz(Module:fluent(Type, First, Second, Term, Start, End, Id)).
-add_row(event(Term, Start, End), Module, Id0, Id) =>
+add_row(event(Term0, Start, End), Module, Id0, Id) =>
     Id is Id0+1,
+    kept_term(Module, Term0, Term),
     flat(Term, Type, First, Second),
     assertz(Module:event(Type, First, Second, Term, Start, End, Id)).
 add_row(proof(Name, Value), Module, Id0, Id) =>
     Id = Id0,
     assertz(Module:proof(Id, Name, Value)).
+add_row(near(Term0, Start, End, Margin), Module, Id0, Id) =>
+    Id = Id0,
+    kept_term(Module, Term0, Term),
+    assertz(Module:near(Term, Start, End, Margin)).
 add_row(type(Type, Kind, Arity), Module, Id0, Id) =>
     Id = Id0,
     add_type(Module, Type, Kind, Arity).
 add_row(Row, Module, Id0, Id), callable(Row), functor(Row, Name, Arity), table(Name/Arity) =>
     Id = Id0,
     assertz(Module:Row).
+
+%   kept_term(+Module, +Term0, -Term): Term0 as the run keeps it, with the spelling of the numbers that occur first.
+
+kept_term(Module, Term0, Term) :-
+    forall(( number_in(Term0, Number), whole(Number, Float), \+ Module:spelling(Float, _) ),
+           assertz(Module:spelling(Float, Number))),
+    spelt_term(Module, Term0, Term).
+
+number_in(Term, Number) :-
+    compound(Term),
+    arg(_, Term, Argument),
+    (   number(Argument)
+    ->  Number = Argument
+    ;   number_in(Argument, Number)
+    ).
+
+%   whole(+Number, -Float): a float tells Number, which is whole, from any other.
+
+whole(Number, Float) :-
+    abs(Number) < 9007199254740992,
+    Number =:= truncate(Number),
+    Float is float(Number).
+
+%!  spelt(+Module, +Number, -Kept) is det.
+%
+%   Kept is the Number as the run of Module has it in its facts: 10 or 10.0.
+
+spelt(Module, Number, Kept) :-
+    (   whole(Number, Float),
+        Module:spelling(Float, Kept0)
+    ->  Kept = Kept0
+    ;   Kept = Number
+    ).
+
+%!  spelt_term(+Module, +Term, -Kept) is det.
+%
+%   The same of all numbers in Term.
+
+spelt_term(Module, Term, Kept), compound(Term), once(number_in(Term, _)) =>
+    compound_name_arguments(Term, Name, Arguments),
+    maplist(spelt_part(Module), Arguments, Parts),
+    compound_name_arguments(Kept, Name, Parts).
+spelt_term(_, Term, Kept) =>
+    Kept = Term.
+
+spelt_part(Module, Part, Kept), number(Part) => spelt(Module, Part, Kept).
+spelt_part(Module, Part, Kept) => spelt_term(Module, Part, Kept).
+
+%!  equal_value(?Value, +Kept) is semidet.
+%
+%   Value is Kept: of numbers, however they are written.
+
+equal_value(Value, Kept), number(Value), number(Kept) => Value =:= Kept.
+equal_value(Value, Kept) => Value = Kept.
 
 %!  flat(+Term, -Type, -First, -Second) is det.
 
@@ -210,8 +275,9 @@ at_ticks(occurrence(S0, E0, Event), occurrence(S, E, Event)) :-
 assert_occurrences([], _, Id, Id).
 assert_occurrences([occurrence(S, E, Event)|More], Module, Id0, Id) :-
     Id1 is Id0+1,
-    flat(Event, Type, First, Second),
-    assertz(Module:event(Type, First, Second, Event, S, E, Id1)),
+    kept_term(Module, Event, Kept),
+    flat(Kept, Type, First, Second),
+    assertz(Module:event(Type, First, Second, Kept, S, E, Id1)),
     (   Module:lasts(Last),
         E >= Last
     ->  assertz(Module:proof(Id1, ends, 'with the log'))
@@ -264,7 +330,8 @@ row(Kind, Term, Start, End, Id, Module), swapped(Term, Module, Swapped) =>
     sort(Found0, Found),
     member(at(Start, End, Id, Term), Found).
 row(Kind, Term, Start, End, Id, Module) =>
-    stored(Kind, Term, Start, End, Id, Module).
+    spelt_term(Module, Term, Kept),
+    stored(Kind, Kept, Start, End, Id, Module).
 
 stored(Kind, Term, Start, End, Id, Module) :-
     flat(Term, Type, First, Second),

@@ -202,9 +202,11 @@ args_of(Term, Time, Arguments), var(Term) =>
     args_of(Term, Time, Arguments).
 args_of(Term, _, _), \+ callable(Term) =>
     fail.
-args_of(Term, Time, Arguments) =>
-    plain_args(Term, Plain),
+args_of(Term0, Time, Arguments0) =>
     current_run(Run),
+    spelt_term(Run, Term0, Term),
+    spelt_term(Run, Arguments0, Arguments),
+    plain_args(Term, Plain),
     levels(Term, Time, Run, Levels),
     (   member(Level, Levels),
         append(Plain, [Level], Arguments)
@@ -271,11 +273,13 @@ objOf(_, _) =>
 evidence(Term, Time, Name, Value) :-
     current_run(Run),
     (   var(Term)
-    ->  Run:proof(Id, Name, Value),
+    ->  Run:proof(Id, Name, Known),
+        equal_value(Value, Known),
         member(Kind, [fluent, event]),
         row_at(Time, Kind, Term, Id, Run)
     ;   instance(Term, Time, Run, Id),
-        Run:proof(Id, Name, Value)
+        Run:proof(Id, Name, Known),
+        equal_value(Value, Known)
     ).
 
 
@@ -283,8 +287,9 @@ evidence(Term, Time, Name, Value) :-
 %
 %   The facts as they are stored, of any run.
 
-fact(Name, Id, Type, Arguments, Start, End) :-
+fact(Name, Id, Type, Arguments0, Start, End) :-
     known_run(Name, Run),
+    spelt_term(Run, Arguments0, Arguments),
     snapped(Run, Start, S),
     snapped(Run, End, E),
     member(Kind, [fluent, event]),
