@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import threading
+import time
 from collections.abc import Iterator
 from typing import Any
 
@@ -218,6 +219,15 @@ def test_endless_and_boundless_goals_are_stopped(session: Session) -> None:
         session.ask(timeline(), "numlist(1, 1000000000, L)", time_limit=60.0)
 
 
+def test_what_no_limit_interrupts_ends_with_its_process(session: Session) -> None:
+    session.ask(timeline(), "true")
+    started = time.monotonic()
+    with pytest.raises(GoalLimitError, match=r"^time limit of 0\.3 s reached"):
+        session.ask(timeline(), "X is powm(3, 2**1000000-1, 2**1000000-3)", time_limit=0.3)
+    # It would take minutes.
+    assert time.monotonic() - started < 4.0
+
+
 def test_answers_are_values(session: Session) -> None:
     egg = timeline()
     assert session.ask(egg, "holds(broken(X), S-E)") == [{"X": "egg1", "S": 0.5, "E": 2.0}]
@@ -380,6 +390,8 @@ def test_without_swi_prolog_the_message_says_how_to_get_it(monkeypatch: pytest.M
         ("length(_L, 2000000), maplist(=(x), _L), atomic_list_concat(_L, _A), R = f(_A)", "..."),
         ("length(_L, 22), foldl([_, A, B]>>(B = f(A, A)), _L, _, R)", "..."),
         ("X is 2**10000000, R = f(X)", "..."),
+        # Its digits alone would take minutes.
+        ("R is 2**1000000000", "..."),
     ],
 )
 def test_an_answer_that_is_too_large_is_cut_with_a_note(session: Session, goal: str, shown: str) -> None:

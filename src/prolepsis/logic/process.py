@@ -45,6 +45,8 @@ SCRIPT_LIMIT = 10.0
 """Longest time in which a script in its place tells what it starts [s]."""
 LISTENS_AFTER = 0.02
 """Time from which on Prolog listens, mostly, after it has told its socket [s]."""
+RECEIVING_LIMIT = 5.0
+"""Longest time for receiving an answer that is there [s]: tens of megabytes."""
 LONGEST_SOCKET = 91
 """Longest path of a unix domain socket that every system takes [bytes]."""
 REQUIRE_CONFINEMENT = "PROLEPSIS_REQUIRE_CONFINEMENT"
@@ -76,6 +78,7 @@ class _Connection(PrologThread):
             if found:
                 break
             received += self._more(stream)
+        self.deadline += RECEIVING_LIMIT
         message = bytearray(body)
         while len(message) < int(digits):
             message += self._more(stream)
@@ -111,6 +114,8 @@ class PrologProcess:
             MissingToolError: If there is no SWI-Prolog, it does not start, or it cannot be confined and must be.
         """
         program = _program()
+        self.died = False
+        """Whether it had ended before it was ended here."""
         self.folder, self._lock = _folder()
         self._idle: list[_Connection] = []
         try:
@@ -251,6 +256,7 @@ class PrologProcess:
 
     def _end(self) -> None:
         self._close_ends()
+        self.died = self.died or self._process.poll() is not None
         self._process.kill()
         self._process.wait()
         self._ended.set()

@@ -29,8 +29,11 @@ from prolepsis.terms.errors import GoalError, GoalLimitError, InputError, Note, 
 from prolepsis.terms.reader import parse_term
 from prolepsis.terms.terms import Value, format_atom, format_value
 
+LATE = 1.0
+"""Time beyond its limit after which a query that does not even stop is ended with its process [s]: no limit interrupts
+one step of arithmetic, as `3**200000000` is."""
 GRACE = 5.0
-"""Time beyond its limit after which a query that does not even stop is ended with its process [s]."""
+"""The same of what is no query [s]."""
 LOAD_LIMIT = 600.0
 """Longest time for loading one run [s]."""
 CHRONICLE_LIMIT = 10.0
@@ -156,13 +159,15 @@ class Session:
             raise GoalError(f"a goal is text, as 'holds(F, T)', not {brief(type(goal).__name__)}")
         goal = pasted(goal)
         _check_question(goal, limit, time_limit)
+        started = time.monotonic()
         try:
             reply = self._reply(timeline, goal, limit, time_limit)
         except ProcessLost as lost:
-            if str(lost) == "time":
-                raise GoalLimitError(f"time limit of {time_limit:g} s reached: {shown(goal)}") from None
             # Perhaps by no fault of this goal: another one was stopped, or somebody killed the process.
-            reply = self._reply_apart(timeline, goal, limit, time_limit)
+            left = time_limit - (time.monotonic() - started if str(lost) == "died" else 0.0)
+            if str(lost) == "time" or left <= 0:
+                raise GoalLimitError(f"time limit of {time_limit:g} s reached: {shown(goal)}") from None
+            reply = self._reply_apart(timeline, goal, limit, left)
         first, _, body = reply.partition("\n")
         status, *open_ends = first.split("\t")
         if status not in ("ok", "cut"):
@@ -188,10 +193,10 @@ class Session:
         seconds = format_value(float(time_limit))
         call = f"answers:ask({format_atom(name)}, {format_atom(goal)}, {count}, {seconds}, Reply)"
         try:
-            return process.call(call, time_limit + GRACE)
-        except ProcessLost:
+            return process.call(call, time_limit + LATE)
+        except ProcessLost as lost:
             self._lose(process)
-            raise
+            raise ProcessLost("died" if str(lost) == "gone" and process.died else str(lost)) from None
 
     def _reply_apart(self, timeline: Timeline, goal: str, limit: int | None, time_limit: float) -> str:
         """Reply from a process of its own, where nobody else's goal is stopped."""

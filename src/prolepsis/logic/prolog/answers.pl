@@ -15,6 +15,7 @@
 :- use_module(library(time)).
 :- use_module(library(apply)).
 :- use_module(library(lists)).
+:- use_module(library(occurs)).
 :- use_module(library(solution_sequences)).
 :- use_module(runs).
 :- use_module(guard).
@@ -99,6 +100,7 @@ value_texts(Values0, Text) :-
     most_characters(Most),
     (   size_abstract_term(100, Values1, Abstract),
         Abstract =@= Values1,
+        \+ ( sub_term(Part, Values1), too_long(Part) ),
         written(Values1, Text),
         string_length(Text, Length),
         Length =< Most
@@ -185,6 +187,8 @@ cut_list(Rest, Left0, Left, Depth, Cut) => cut_term(Rest, Left0, Left, Depth, Cu
 
 cut_here('...') :-
     nb_setval(prolepsis_cut, "cut").
+
+%   A number's digits are not written to be counted: that takes longer the more there are.
 
 too_long(Term) :-
     most_characters(Most),
