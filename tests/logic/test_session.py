@@ -47,8 +47,12 @@ def session() -> Iterator[Session]:
         ("", "syntax error"),
         (
             "Holds(F,T)",
-            r"column 6, before \(F,T\): a predicate's name begins with a small letter, and Holds is a variable",
+            r"column 6, before \(F,T\): a predicate's name begins with a small letter, and Holds is a variable; "
+            r"write holds\(F,T\)",
         ),
+        ("holds(BROKEN(egg1), T)", r"BROKEN is a variable; write broken\(egg1\)"),
+        ("occurs(PickingUp(X, egg1), T)", r"PickingUp is a variable; write picking_up\(X, egg1\)"),
+        ("holds(FOO(f(x)), T)", r"FOO is a variable; write foo\(f\(x\)\)"),
         ("holds(Broken(X), T)", r"Broken is a variable; write broken\("),
         ("Holds (F,T)", r"Holds is a variable; write holds\("),
         ("holds (F, T", "syntax error at column"),

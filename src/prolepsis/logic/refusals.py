@@ -41,8 +41,8 @@ def refusal(status: str, body: str, goal: str, time_limit: float, timeline: Time
     """
     match status:
         case "syntax":
-            position, message = body.split("\n", 1)
-            return GoalError(f"{syntax_error(int(position), message, goal)}: {shown(goal)}")
+            position, message, known = body.split("\n")
+            return GoalError(f"{syntax_error(int(position), message, goal, known.split(chr(9)))}: {shown(goal)}")
         case "predicate":
             name, known = body.split("\n", 1)
             return GoalError(f"unknown predicate {brief(name)}; {_nearest(name, known.split(chr(9)), timeline)}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from itertools import pairwise
 
 from prolepsis.logic.pasting import SKIPPED
@@ -57,15 +58,16 @@ _TOKEN = re.compile(
 )
 
 
-def syntax_error(position: int, message: str, goal: str) -> str:
+def syntax_error(position: int, message: str, goal: str, known: Sequence[str]) -> str:
     """Return what is wrong with the text of a goal, and where.
 
     Args:
         position: Where SWI-Prolog stopped to read [characters].
         message: What it says.
         goal: The goal as it was asked.
+        known: Names of predicates, fluents and events.
     """
-    cause = _cause(goal, position, message)
+    cause = _cause(goal, position, message, known)
     if cause is not None:
         position, told = cause
     else:
@@ -87,7 +89,7 @@ def _token_at(position: int, goal: str, *, behind: bool) -> int:
     return len(goal)
 
 
-def _cause(goal: str, position: int, message: str) -> tuple[int, str] | None:
+def _cause(goal: str, position: int, message: str, known: Sequence[str]) -> tuple[int, str] | None:
     """Return a place and what is wrong there, or None if it is nothing that is known here."""
     found = [*_TOKEN.finditer(goal)]
     for token in found:
@@ -97,7 +99,7 @@ def _cause(goal: str, position: int, message: str) -> tuple[int, str] | None:
         if token[0] in INSTEAD and not token[0].islower():
             return token.start(), f"{token[0]} is no sign of Prolog; write {INSTEAD[token[0]]}"
     tokens = [token for token in found if not token["skipped"] or token[0][0] in "'\"`0"]
-    return _unbalanced(tokens) or _missing(tokens) or _other_language(tokens, position, message)
+    return _unbalanced(tokens) or _missing(tokens, known) or _other_language(tokens, position, message)
 
 
 def _unbalanced(tokens: list[re.Match[str]]) -> tuple[int, str] | None:
@@ -114,14 +116,14 @@ def _unbalanced(tokens: list[re.Match[str]]) -> tuple[int, str] | None:
     return (opened[-1].start(), f"this {opened[-1][0]} is not closed") if opened else None
 
 
-def _missing(tokens: list[re.Match[str]]) -> tuple[int, str] | None:
+def _missing(tokens: list[re.Match[str]], known: Sequence[str]) -> tuple[int, str] | None:
     for before, token in pairwise(tokens):
         if (before[0] in "([{,|;" and token[0] in ",|;") or (before[0] in ",|;" and token[0] in ")]}"):
             return token.start(), f"a term is missing between {before[0]} and {token[0]}"
         name = before[0]
         if token[0] == "(" and (name[0].isupper() or name[0] == "_"):
-            small = name.lstrip("_")
-            write = f"; write {small[0].lower()}{small[1:]}(" if small else ""
+            small = _small(name, known)
+            write = f"; write {brief(small + _bracket(tokens, token), 60)}" if small else ""
             return token.start(), f"a predicate's name begins with a small letter, and {name} is a variable{write}"
         if before["number"] and token[0] == "." and token.start() == before.end() and token is not tokens[-1]:
             return token.start(), f"a number ends with a digit; write {before[0]} or {before[0]}.0"
@@ -130,6 +132,27 @@ def _missing(tokens: list[re.Match[str]]) -> tuple[int, str] | None:
     if tokens and tokens[-1][0] in ",|;":
         return tokens[-1].start(), f"a term is missing after {tokens[-1][0]}"
     return None
+
+
+def _bracket(tokens: list[re.Match[str]], opening: re.Match[str]) -> str:
+    """Return the text from an opening bracket to the one that closes it."""
+    depth = 0
+    for token in tokens[tokens.index(opening) :]:
+        depth += (token[0] in _CLOSING) - (token[0] in _CLOSING.values())
+        if depth == 0:
+            return opening.string[opening.start() : token.end()]
+    return opening[0]
+
+
+def _small(name: str, known: Sequence[str]) -> str:
+    """Return the known name that is spelt like one but for capitals, or how it would be written."""
+    alike = [each for each in known if _folded(each) == _folded(name)]
+    small = name.lstrip("_")
+    return alike[0] if alike else small.lower() if small.isupper() else f"{small[:1].lower()}{small[1:]}"
+
+
+def _folded(name: str) -> str:
+    return name.replace("_", "").casefold()
 
 
 def _other_language(tokens: list[re.Match[str]], position: int, message: str) -> tuple[int, str] | None:

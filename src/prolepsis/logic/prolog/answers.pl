@@ -290,8 +290,11 @@ small(Term) :-
     size_abstract_term(1000, Term, Abstract),
     Abstract =@= Term.
 
-refusal(syntax(Character, Message), ["syntax\n", Character, "\n", Text]) :-
-    shortened(Message, Text).
+refusal(syntax(Character, Message), ["syntax\n", Character, "\n", Text, "\n", Known]) :-
+    shortened(Message, Text),
+    findall(Name, ( allowed(Name/_) ; candidate(type(fact), Name) ), Names),
+    sort(Names, Sorted),
+    atomic_list_concat(Sorted, '\t', Known).
 refusal(unknown_predicate(PI), ["predicate\n", Text, "\n", Known]) :-
     short_text(PI, Text),
     findall(Name, ( allowed(N/A), format(atom(Name), '~w/~w', [N, A]) ), Names),
