@@ -351,11 +351,23 @@ def test_what_is_no_time_is_not_denied(session: Session, goal: str, time: str) -
         ("value(egg1, Mass, 0.06)", "Mass is a variable and stands for any property; write mass for one"),
         ("evidence(F, T, Force, 44.0)", "Force is a variable and stands for any evidence; write force for one"),
         ("findall(X, instance_of(X, Egg, _), L)", "Egg is a variable"),
+        ("holds(broken(Drawer), T)", "Drawer is a variable and stands for any individual; write drawer for one"),
+        ("\\+ holds(broken(Egg1), T)", "Egg1 is a variable and stands for any individual; write egg1 for one"),
+        ("holds(broken(Knob), T), occurs(snapping_off(Knob), _)", "Knob is a variable"),
+        ("holds(F, _), objOf(F, EGG1), fail", "EGG1 is a variable .*; write egg1 for one"),
     ],
 )
 def test_a_known_name_with_a_capital_is_told_to_be_a_variable(session: Session, goal: str, told: str) -> None:
     with pytest.warns(Note, match=told):
         session.ask(RUN1, goal)
+
+
+@pytest.mark.parametrize("goal", ["evidence(F, T, by, {})", "evidence(F, T, by, V), V == {}"])
+def test_no_is_not_all_that_is_said_of_a_text_that_nothing_has(session: Session, goal: str) -> None:
+    with pytest.warns(Note, match="no, but no value of by is situatio here; did you mean situation?"):
+        assert session.ask(RUN1, goal.format("situatio")) == []
+    with pytest.warns(Note, match="no, but no value of by is screwdriver here; those told are situation"):
+        assert session.ask(RUN1, goal.format("screwdriver")) == []
 
 
 @pytest.mark.parametrize(
@@ -377,6 +389,7 @@ def test_no_is_not_all_that_is_said_of_an_instant_outside_the_log(session: Sessi
         "instance_of(Egg, Class)",
         "instance_of(egg1, Egg), Egg = 'Egg'",
         "evidence(broken(egg1), T, force, Force)",
+        "holds(broken(Drawer), T), Drawer = egg1",
         "holds(F, T), fluentT(F, _Wet)",
     ],
 )

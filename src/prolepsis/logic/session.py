@@ -178,7 +178,7 @@ class Session:
         read, _, body = body.partition("\n")
         answers = _answers(body, time.monotonic() + time_limit + GRACE, goal)
         notes = [
-            *meaning_notes(read, goal, timeline.duration, no=not answers),
+            *meaning_notes(read, goal, timeline.duration, answers),
             open_note(answers, open_ends, goal),
             "" if answers else undone_note(timeline, goal),
             near_note(timeline, answers, goal),

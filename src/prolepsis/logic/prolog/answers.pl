@@ -1,8 +1,8 @@
 /*  Answers: a goal in text is read, checked, put in order, run within its limits, and answered in text.
 
     A reply is lines: first "ok" ("cut" where a value was too large or deep to be told whole) and, after tabs, what still
-    went on when the log ended and bears on the goal; or what went wrong. Then known names that were read as variables, and
-    instants outside the log, in threes: as it stands, kind and name; the variables; and one line for each distinct answer, with the values of the
+    went on when the log ended and bears on the goal; or what went wrong. Then known names that were read as variables,
+    values that none has, and instants outside the log, in threes: as it stands, kind and name, of values those that are told; the variables; and one line for each distinct answer, with the values of the
     variables separated by tabs, as terms that can be read back.
 */
 
@@ -57,6 +57,14 @@ not_as_meant(Run, Goal, Bindings, Read) :-
             (   read_as_variable(Goal, Bindings, Shown, Kind, Name),
                 named_kind(Kind, Of),
                 short_text(Name, Text)
+            ;   individual_as_variable(Goal, Bindings, Shown, Name),
+                Of = individual,
+                short_text(Name, Text)
+            ;   told_by_none(Goal, What, Value, Told),
+                named_kind(value(What), Of),
+                short_text(Value, Shown),
+                findall(Each, ( member(One, Told), format(atom(Each), '~q', [One]) ), All),
+                atomic_list_concat(All, '\x1F\', Text)
             ;   outside(Goal, Run, Shown),
                 Of = time,
                 Text = ''

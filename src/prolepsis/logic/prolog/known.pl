@@ -9,6 +9,7 @@
             related/1,                  % +Name
             quantity/2,                 % +Name, -Unit
             stored_value/2,             % +Name, ?Value
+            stored_value_of/2,          % +Name, ?Value
             known_names/2,              % +Kind, -Names
             candidate/2,                % +Kind, -Name
             fact_kind/1,                % ?Kind
@@ -144,9 +145,14 @@ quantity(Of, Unit) :-
 %!  stored_value(+Of, ?Value) is semidet.
 
 stored_value(Of, Value) :-
-    known_run(_, Run),
-    ( Run:value(_, Of, Value) ; Run:proof(_, Of, Value) ),
+    stored_value_of(Of, Value),
     !.
+
+%!  stored_value_of(+Name, ?Value) is nondet.
+
+stored_value_of(Of, Value) :-
+    known_run(_, Run),
+    ( Run:value(_, Of, Value) ; Run:proof(_, Of, Value) ).
 
 type_name(Kind, Name) :- fact_type(Name, _, Kind).
 type_name(Kind, Name) :- known_run(_, Run), Run:type(Name, Kind).

@@ -2,13 +2,17 @@
 
 :- module(not_as_meant,
           [ read_as_variable/5,         % +Goal, +Bindings, -Variable, -Kind, -Name
+            individual_as_variable/4,   % +Goal, +Bindings, -Variable, -Name
+            told_by_none/4,             % +Goal, -Of, -Value, -Told
             outside/3                   % +Goal, +Run, -Instant
           ]).
 :- use_module(library(lists)).
 :- use_module(library(occurs)).
+:- use_module(kinds).
 :- use_module(known).
 :- use_module(positions).
 :- use_module(runs).
+:- use_module(vocabulary).
 
 %!  read_as_variable(+Goal, +Bindings, -Variable, -Kind, -Name) is nondet.
 %
@@ -22,6 +26,46 @@ read_as_variable(Goal, Bindings, Variable, Kind, Name) :-
     what(Kind),
     folded(Variable, Folded),
     once(( candidate(Kind, Known), named_as(Known, Kind, Name), functor(Name, Plain, _), folded(Plain, Folded) )).
+
+%!  individual_as_variable(+Goal, +Bindings, -Variable, -Name) is nondet.
+%
+%   True if Variable stands for any individual in Goal, is compared with none, and is spelt as the individual Name but for
+%   capitals. One letter is how variables are written.
+
+individual_as_variable(Goal, Bindings, Variable, Name) :-
+    readings(Goal, [], Reading),
+    term_variables(Goal, Variables),
+    variable(Reading, N, Kinds, []),
+    memberchk(individual, Kinds),
+    nth0(N, Variables, Value),
+    member(Variable=Same, Bindings),
+    Same == Value,
+    \+ atom_length(Variable, 1),
+    ( small(Variable, Name) ; downcase_atom(Variable, Name) ),
+    known(individual, Name).
+
+small(Name, Small) :-
+    sub_atom(Name, 0, 1, Rest, First),
+    sub_atom(Name, 1, Rest, 0, More),
+    downcase_atom(First, Lower),
+    atom_concat(Lower, More, Small).
+
+%!  told_by_none(+Goal, -Of, -Value, -Told:list) is nondet.
+%
+%   True if Goal asks whether Value is a value of Of, which may be any text, and no run has it, but those Told.
+
+told_by_none(Goal, Of, Value, Told) :-
+    readings(Goal, [], Reading),
+    class(Reading, Kinds, Constants, _),
+    member(value(Of), Kinds),
+    \+ allowed_value(Of, _),
+    \+ quantity(Of, _),
+    member(Value, Constants),
+    ( atom(Value) ; string(Value) ),
+    \+ stored_value(Of, Value),
+    findall(Each, ( stored_value_of(Of, Each), atom(Each) ), All),
+    sort(All, Told),
+    Told \== [].
 
 %   what(+Kind): of a Kind that is not an individual, which may be there in one run and not in another.
 
