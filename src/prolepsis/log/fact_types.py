@@ -38,6 +38,10 @@ class FactType:
 
 SYMMETRIC = frozenset({"contacts", "colliding"})
 """Types of which both things are alike: a goal finds them with the two in either order."""
+ONLY_OF: Mapping[str, str] = dict.fromkeys(("breaking", "broken", "cracked", "open", "crushed"), "Breakable")
+"""Types that are found of nothing but what is of a class, for everything else is rigid: a "no" says so."""
+TOLD_INSTEAD: Mapping[str, str] = {"Breakable": "overloading"}
+"""What is found of a thing that is of no such class, where one of the class would come to what is found of it only."""
 FLUENTS: dict[str, FactType] = {}
 """Conditions that are found in a log, by name."""
 EVENTS: dict[str, FactType] = {}

@@ -24,6 +24,7 @@ from prolepsis.logic.process import ProcessLost, PrologProcess
 from prolepsis.logic.refusals import refusal, shown
 from prolepsis.logic.rules import read_rules, rule_refusal
 from prolepsis.logic.run_file import write_run
+from prolepsis.logic.unbreakable import unbreakable_note
 from prolepsis.logic.undone import undone_note
 from prolepsis.terms.errors import GoalError, GoalLimitError, InputError, Note, brief
 from prolepsis.terms.reader import parse_term
@@ -181,6 +182,7 @@ class Session:
             *meaning_notes(read, goal, timeline.duration, answers),
             open_note(answers, open_ends, goal),
             "" if answers else undone_note(timeline, goal),
+            "" if answers else unbreakable_note(timeline, goal),
             near_note(timeline, answers, goal),
         ]
         for note in filter(None, notes):
