@@ -138,6 +138,8 @@ COMPARED = [
     ("findall(X, holds(broken(X), _), L), member(eggg1, L)", "no individual named eggg1"),
     ("findall(X, holds(broken(X), _), L), L == [eggg1]", "no individual named eggg1"),
     ("findall(X-S, holds(broken(X), S-_), L), memberchk(eggg1-_, L)", "no individual named eggg1"),
+    ("member(X-S, [egg1-1, eggg1-2]), holds(broken(X), S)", "no individual named eggg1"),
+    ("L = [egg1, Y], Y = eggg1, forall(member(X, L), holds(broken(X), _))", "no individual named eggg1"),
     ("setof(X, T^holds(broken(X), T), L), subtract(L, [eggg1], M)", "no individual named eggg1"),
     ("findall(X, holds(broken(X), _), L), include([Y]>>(Y = eggg1), L, M)", "no individual named eggg1"),
     ("maplist([X]>>holds(broken(X), _), [egg1, eggg1])", "no individual named eggg1"),
@@ -171,6 +173,8 @@ def test_what_a_variable_is_compared_with_is_known_as_what_it_stands_for(
         # What one branch gives when there is none bears on nothing in the other.
         ("(holds(broken(eggshell1), S-_) -> true ; S = never)", "never"),
         ("(X = nobody ; holds(broken(X), _)), S = X", "nobody"),
+        ("holds(F, T), L = [F, 1, T, 'Two words', nobody], last(L, S)", "nobody"),
+        ("occurs(E, _), argsOf(E, [_, X, S]), instance_of(X, _), S \\= force99", "force7"),
         # Known as one of two kinds is known.
         ("holds(broken(S), _), unit(U, _), (U = S ; U = mass), S = egg1", "egg1"),
         ("findall(X, holds(broken(X), _), L), atomic_list_concat(L, ', ', Text), Text \\= nothing, S = Text", "egg1"),

@@ -19,6 +19,7 @@
 :- use_module(library(solution_sequences)).
 :- use_module(runs).
 :- use_module(guard).
+:- use_module(kinds).
 :- use_module(known).
 :- use_module(names).
 :- use_module(numbers).
@@ -43,7 +44,7 @@ answers(Run, Text, Limit, Seconds, Lines) :-
     pairs(Outer, Names, Values),
     nb_setval(prolepsis_cut, "ok"),
     nb_setval(prolepsis_told, 0),
-    call_with_time_limit(Seconds, ( found(Run, Goal, Values, Limit, Answers), not_as_meant(Run, Goal, Bindings, Read) )),
+    call_with_time_limit(Seconds, answers(Run, Goal, Bindings, Values, Limit, Answers, Read)),
     nb_getval(prolepsis_cut, Status),
     open_ends(Run, Goal, Ends),
     atomic_list_concat([Status|Ends], '\t', First),
@@ -52,15 +53,15 @@ answers(Run, Text, Limit, Seconds, Lines) :-
     atomic_list_concat([Header|Answers], '\n', Body),
     Lines = [First, "\n", Second, "\n", Body].
 
-not_as_meant(Run, Goal, Bindings, Read) :-
+not_as_meant(Run, Goal, Bindings, Readings, Variables, Read) :-
     findall([Shown, Of, Text],
             (   read_as_variable(Goal, Bindings, Shown, Kind, Name),
                 named_kind(Kind, Of),
                 short_text(Name, Text)
-            ;   individual_as_variable(Goal, Bindings, Shown, Name),
+            ;   individual_as_variable(Readings, Variables, Bindings, Shown, Name),
                 Of = individual,
                 short_text(Name, Text)
-            ;   told_by_none(Goal, What, Value, Told),
+            ;   told_by_none(Readings, What, Value, Told),
                 named_kind(value(What), Of),
                 short_text(Value, Shown),
                 findall(Each, ( member(One, Told), format(atom(Each), '~q', [One]) ), All),
@@ -77,14 +78,20 @@ named_kind(name(Kind), Of) => Of = Kind.
 named_kind(value(Name), Of) => atom_concat('value of ', Name, Of).
 named_kind(Kind, Of) => Of = Kind.
 
-found(Run, Goal0, Values, Limit, Answers) :-
-    check_goal(Goal0),
-    apart(Goal0, Skeleton, Numbers),
-    check_names(Goal0, Skeleton, Numbers),
+answers(Run, Goal, Bindings, Values, Limit, Answers, Read) :-
+    check_goal(Goal),
+    apart(Goal, Kept, Numbers),
+    term_variables(Kept, Variables),
+    readings(Kept, Numbers, Readings),
+    check_names(Goal, Readings),
     known_run(Run, Module),
-    as_kept(Module, Skeleton, Numbers, Kept),
-    maplist(becomes, Numbers, Kept),
-    order_goal(Skeleton, Goal),
+    as_kept(Module, Readings, KeptNumbers),
+    maplist(becomes, Numbers, KeptNumbers),
+    found(Run, Kept, Values, Limit, Answers),
+    not_as_meant(Run, Goal, Bindings, Readings, Variables, Read).
+
+found(Run, Goal0, Values, Limit, Answers) :-
+    order_goal(Goal0, Goal),
     % Nothing that is permitted changes a fact; should it ever, snapshot/1 undoes it.
     snapshot(findall(Answer, limit(Limit, distinct(Answer, answer(Run, Goal, Values, Answer))), Answers)).
 

@@ -1,13 +1,11 @@
 /*  Kinds: what each variable of a goal stands for, by where it stands, and what it is compared with.
 
-    A goal is read as equations: of a variable and what it is unified or compared with, of a list and what is in it, of a
-    fact and what it is made of. Variables that the equations join are one class, which has the kinds of all positions in
-    which they stand, and the constants and terms that they meet. Nothing is run. Of a disjunction one branch is read at a
-    time, so that what stands in one bears on nothing in the other.
+    Variables that the equations of a goal join are one class, which has the kinds of all positions in which they stand, and
+    the names, numbers and terms that they meet.
 */
 
 :- module(kinds,
-          [ readings/3,                 % +Goal, +Numbers, -Reading
+          [ readings/3,                 % +Goal, +Numbers, -Readings
             class/4,                    % +Reading, -Kinds, -Constants, -Terms
             variable/4,                 % +Reading, ?N, -Kinds, -Constants
             number_kinds/2,             % +Reading, -Numbers
@@ -19,22 +17,21 @@
 :- use_module(library(lists)).
 :- use_module(library(ordsets)).
 :- use_module(library(solution_sequences)).
-:- use_module(guard).
+:- use_module(equations).
 :- use_module(known, [fact_kind/1]).
-:- use_module(positions).
 
 %   No more readings of a goal are made: each disjunction doubles them.
 
 most_readings(100).
 
-%!  readings(+Goal, +Numbers, -Reading) is nondet.
+%!  readings(+Goal, +Numbers, -Readings:list) is det.
 %
-%   Reading is what Goal tells of its variables in one choice of the branches of its disjunctions. Numbers are the
+%   Readings are what Goal tells of its variables, in each choice of the branches of its disjunctions. Numbers are the
 %   Variable-Number of variables that stand for numbers.
 
-readings(Goal, Numbers, Reading) :-
+readings(Goal, Numbers, Readings) :-
     most_readings(Most),
-    limit(Most, reading(Goal, Numbers, Reading)).
+    findall(Reading, limit(Most, reading(Goal, Numbers, Reading)), Readings).
 
 reading(Goal, Numbers, reading(Classes, Equations, Variables, Pairs)) :-
     copy_term(Goal-Numbers, Copy-Pairs),
@@ -48,143 +45,6 @@ reading(Goal, Numbers, reading(Classes, Equations, Variables, Pairs)) :-
     spread(Equations, State, Classes).
 
 is_number(Variable-Number, same(Variable, Number)).
-
-%   equations(+Goal)//: what Goal tells, each as same(A, B), in(List, Element), kind(Term, Kind), named(Fact, Name, Arity),
-%   argument(Fact, Argument) or gives(Interval, Reader).
-
-equations(Goal) --> { var(Goal) }, !.
-equations((A ; B)) -->
-    !,
-    (   { nonvar(A), ( A = (If -> Then) ; A = (If *-> Then) ) }
-    ->  ( equations(If), equations(Then) ; equations(B) )
-    ;   ( equations(A) ; equations(B) )
-    ).
-equations(_/Lambda) --> !, equations(Lambda).
-equations(Parameters>>Body) --> { is_list(Parameters) }, !, equations(Body).
-equations(_^Goal) --> !, equations(Goal).
-equations(Goal) --> { callable(Goal) }, !, own(Goal), inner(Goal).
-equations(_) --> [].
-
-own(F =.. List) --> !, univ(List, F).
-own(functor(F, Name, Arity)) --> !, [named(F, Name, Arity)].
-own(arg(_, F, Argument)) --> !, [argument(F, Class), same(Class, Argument)].
-own(Goal) -->
-    { form(Goal, Form) },
-    !,
-    { Goal =.. [_|Arguments], Form =.. [_|Shapes] },
-    shaped(Shapes, Arguments, Goal),
-    gives(Goal).
-own(Goal) -->
-    { functor(Goal, Name, Arity), functor(Calls, Name, Arity), ( may(Calls) -> true ; Calls = Goal ),
-      findall(N, ( Arity > 0, arg(N, Calls, Way), \+ goes_into(Way) ), Plain), maplist(argument_of(Goal), Plain, Arguments),
-      term_variables(Arguments, Variables) },
-    of_kind(Variables, any).
-
-goes_into(Way) :- ( integer(Way) ; Way == (^) ).
-
-argument_of(Goal, N, Argument) :- arg(N, Goal, Argument).
-
-form(Goal, Form) :-
-    functor(Goal, Name, Arity),
-    functor(Form, Name, Arity),
-    (   takes(Form)
-    ->  true
-    ;   Name == aggregate_all
-    ->  arg(1, Goal, Asked),
-        arg(1, Form, What),
-        nonvar(Asked),
-        functor(Asked, Of, Parts),
-        functor(What, Of, Parts),
-        links(Form)
-    ;   links(Form)
-    ),
-    !.
-
-univ([Name|Arguments], F) -->
-    !,
-    [named(F, Name, _)],
-    univ_arguments(Arguments, F).
-univ(_, _) --> [].
-
-univ_arguments(Arguments, F) --> { nonvar(Arguments), Arguments = [First|Rest] }, !,
-    [argument(F, Class), same(Class, First)],
-    univ_arguments(Rest, F).
-univ_arguments(_, _) --> [].
-
-shaped([], [], _) --> [].
-shaped([Shape|Shapes], [Argument|Arguments], Goal) -->
-    stands(Shape, Argument, Goal),
-    shaped(Shapes, Arguments, Goal).
-
-%   stands(?Shape, ?Argument, +Goal)//: Argument of Goal stands where one of Shape is taken.
-
-stands(Shape, Argument, _) --> { var(Shape) }, !, [same(Shape, Argument)].
-stands(?, Argument, _) --> !, ( { var(Argument) } -> [kind(Argument, any)] ; [] ).
-stands(number, Expression, _) --> !,
-    { term_variables(Expression, Variables) },
-    of_kind(Variables, number).
-stands(value(N), Argument, Goal) --> !,
-    { arg(N, Goal, Of) },
-    ( { atom(Of) } -> [kind(Argument, value(Of))] ; [] ).
-stands(type(Kind), Argument, _) --> !, [kind(Argument, type(Kind))].
-stands(list(Shape), List, Goal) --> !,
-    [in(List, Element)],
-    stands(Shape, Element, Goal).
-stands(called(More), Closure, Goal) --> !, closure(Closure, More, Goal).
-stands(Kind, Argument, _) --> { atom(Kind) }, !, [kind(Argument, Kind)].
-stands(Shape, Argument, Goal) -->
-    { Shape =.. [Name|Shapes], length(Shapes, Count), length(Arguments, Count), Term =.. [Name|Arguments] },
-    [same(Term, Argument)],
-    shaped(Shapes, Arguments, Goal).
-
-of_kind([], _) --> [].
-of_kind([Variable|Variables], Kind) --> [kind(Variable, Kind)], of_kind(Variables, Kind).
-
-closure(Closure, _, _) --> { var(Closure) }, !.
-closure(_/Lambda, More, Goal) --> !, closure(Lambda, More, Goal).
-closure(Parameters>>Body, More, Goal) --> { is_list(Parameters) }, !,
-    { length(Parameters, Count), length(More, Given), First is min(Count, Given),
-      length(Bound, First), append(Bound, Rest, More), append(Heads, _, Parameters), length(Heads, First) },
-    all_same(Heads, Bound),
-    closure(Body, Rest, Goal).
-closure(Closure, More, _) --> { callable(Closure), Closure \= _:_ }, !,
-    { Closure =.. Plain, append(Plain, More, All), Called =.. All },
-    equations(Called).
-closure(_, _, _) --> [].
-
-all_same([], []) --> [].
-all_same([A|As], [B|Bs]) --> [same(A, B)], all_same(As, Bs).
-
-gives(Goal) -->
-    (   { gives(Goal, Interval), var(Interval) }
-    ->  [gives(Interval, Goal)]
-    ;   []
-    ).
-
-gives(holds(_, Interval), Interval).
-gives(occurs(_, Interval), Interval).
-gives(instance_of(_, _, Interval), Interval).
-gives(evidence(_, Interval, _, _), Interval).
-
-%   inner(+Goal)//: the goals in Goal that no link has told of already.
-
-inner(Goal) -->
-    { functor(Goal, Name, Arity), functor(Calls, Name, Arity), may(Calls), Arity > 0 },
-    !,
-    { ( form(Goal, Form) -> true ; functor(Form, Name, Arity) ), Goal =.. [_|Arguments], Calls =.. [_|Ways],
-      Form =.. [_|Shapes] },
-    inners(Ways, Shapes, Arguments).
-inner(_) --> [].
-
-inners([], [], []) --> [].
-inners([Way|Ways], [Shape|Shapes], [Argument|Arguments]) -->
-    (   { nonvar(Shape), Shape = called(_) }
-    ->  []
-    ;   { called(Way, Argument, Called) }
-    ->  equations(Called)
-    ;   []
-    ),
-    inners(Ways, Shapes, Arguments).
 
 %   joined(+Equation, +State0, -State): a state has the next number, and by its number each class, which is
 %   class(Kinds, Constants, Terms, Element), or to(Number) of the one that it was joined with. A term is
@@ -258,19 +118,32 @@ add_kind(I, Kind, State0, State) :-
     put(A, class(Kinds, Constants, Terms, Element), State0, State).
 
 add_term(_, [], State0, State) => State = State0.
-add_term(I, [First|Rest], State0, State) =>
-    element(I, Element, State0, State1),
-    join('$class'(Element), First, State1, State2),
-    join('$class'(I), Rest, State2, State).
+add_term(I, List, State0, State), List = [_|_] =>
+    items(List, Items, Rest),
+    (   Rest == []
+    ->  Name = '[|]',
+        Arguments = Items
+    ;   Name = '[|',
+        Arguments = [Rest|Items]
+    ),
+    add_compound(I, Name, Arguments, State0, State).
 add_term(I, Term, State0, State), compound(Term) =>
     compound_name_arguments(Term, Name, Arguments),
-    length(Arguments, Arity),
-    foldl(number_of, Arguments, Numbers, State0, State1),
-    add_parts(I, term(Name, Arity, Numbers), State1, State).
+    add_compound(I, Name, Arguments, State0, State).
 add_term(I, Constant, State0, State) =>
     root(I, State0, A, class(Kinds, Constants0, Terms, Element)),
     ord_add_element(Constants0, Constant, Constants),
     put(A, class(Kinds, Constants, Terms, Element), State0, State).
+
+add_compound(I, Name, Arguments, State0, State) :-
+    length(Arguments, Arity),
+    foldl(number_of, Arguments, Numbers, State0, State1),
+    add_parts(I, term(Name, Arity, Numbers), State1, State).
+
+items([First|More], [First|Items], Rest) :-
+    !,
+    items(More, Items, Rest).
+items(Rest, [], Rest).
 
 add_parts(I, term(Name, Arity, Numbers), State0, State) :-
     root(I, State0, A, class(Kinds, Constants, Terms, Element)),
@@ -288,26 +161,74 @@ element(I, Number, State0, State) :-
         State = State0
     ).
 
-%   spread(+Equations, +State0, -State): what a thing is made of has kinds, too.
+%   spread(+Equations, +State0, -State): what a thing is made of has kinds, too. What stands in a list that is written out
+%   has the kinds of what is in the list, and is met by that; but nothing makes one of it what another is.
 
 spread(Equations, State0, State) :-
-    findall(I-Kind, ( spreads(Equations, State0, I, Kind), \+ has_kind(State0, I, Kind) ), Found0),
-    sort(Found0, Found),
-    (   Found == []
+    findall(Found, new(Equations, State0, Found), All0),
+    sort(All0, All),
+    (   All == []
     ->  State = State0
-    ;   foldl(add_found, Found, State0, State1),
+    ;   foldl(add_found, All, State0, State1),
         spread(Equations, State1, State)
     ).
 
-add_found(I-Kind, State0, State) :-
-    add_kind(I, Kind, State0, State).
-
-has_kind(State, I, Kind) :-
+new(Equations, State, kind(I, Kind)) :-
+    spreads(Equations, State, I, Kind),
     root(I, State, _, class(Kinds, _, _, _)),
-    memberchk(Kind, Kinds).
+    \+ memberchk(Kind, Kinds).
+new(_, State, Found) :-
+    listed(State, Element0, Term),
+    root(Element0, State, Element, class(Kinds, Constants, Terms, _)),
+    item(Term, First),
+    root(First, State, _, class(OwnKinds, OwnConstants, OwnTerms, _)),
+    (   Found = kind(First, Kind),
+        member(Kind, Kinds),
+        \+ memberchk(Kind, OwnKinds)
+    ;   Found = constant(Element, Constant),
+        member(Constant, OwnConstants),
+        \+ memberchk(Constant, Constants)
+    ;   Found = parts(Element, term(Name, Arity, Numbers)),
+        member(term(Name, Arity, Numbers), OwnTerms),
+        \+ ( memberchk(term(Name, Arity, Known), Terms), maplist(same_class(State), Numbers, Known) )
+    ).
+new(_, State, element(Rest, Element)) :-
+    listed(State, Element0, Term),
+    rest(Term, Rest),
+    root(Element0, State, Element, _),
+    root(Rest, State, _, class(_, _, _, In)),
+    \+ ( In \== none, root(In, State, Element, _) ).
+
+same_class(State, I, J) :-
+    root(I, State, A, _),
+    root(J, State, A, _).
+
+%   listed(+State, -Element, -Term): Term is a list that is written out, of a class that has an Element.
+
+listed(state(_, Classes), Element, Term) :-
+    gen_assoc(_, Classes, class(_, _, Terms, Element)),
+    Element \== none,
+    member(Term, Terms),
+    is_written(Term).
+
+is_written(term(Name, _, _)) :- memberchk(Name, ['[|]', '[|']).
+
+%   What is in a list that is written out, and what it may end in.
+
+item(term('[|]', _, Items), Item) :- member(Item, Items).
+item(term('[|', _, [_|Items]), Item) :- member(Item, Items).
+
+rest(term('[|', _, [Rest|_]), Rest).
+
+add_found(kind(I, Kind), State0, State) => add_kind(I, Kind, State0, State).
+add_found(constant(I, Constant), State0, State) => add_term(I, Constant, State0, State).
+add_found(parts(I, Term), State0, State) => add_parts(I, Term, State0, State).
+add_found(element(I, Element), State0, State) =>
+    element(I, In, State0, State1),
+    join_classes(In, Element, State1, State).
 
 spreads(_, state(_, Classes), I, Kind) :-
-    gen_assoc(_, Classes, class(Kinds, _, Terms, Element)),
+    gen_assoc(_, Classes, class(Kinds, _, Terms, _)),
     member(Of, Kinds),
     (   fact_kind(Of),
         member(term(_, _, Numbers), Terms),
@@ -317,9 +238,9 @@ spreads(_, state(_, Classes), I, Kind) :-
         member(term(-, 2, Numbers), Terms),
         member(I, Numbers),
         Kind = end
-    ;   list_of(Of, Kind),
-        Element \== none,
-        I = Element
+    ;   list_of(Of, Each),
+        member(Term, Terms),
+        ( item(Term, I), Kind = Each ; rest(Term, I), Kind = Of )
     ).
 spreads(Equations, State, I, Kind) :-
     member(Equation, Equations),

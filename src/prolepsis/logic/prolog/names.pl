@@ -6,7 +6,7 @@
 
 :- module(names,
           [ check_names/1,              % +Goal
-            check_names/3,              % +Goal, +Skeleton, +Numbers
+            check_names/2,              % +Goal, +Readings
             check_found_nothing/1       % +Goal
           ]).
 :- use_module(library(apply)).
@@ -18,20 +18,21 @@
 :- use_module(vocabulary).
 
 %!  check_names(+Goal) is det.
-%!  check_names(+Goal, +Skeleton, +Numbers) is det.
+%!  check_names(+Goal, +Readings) is det.
 %
-%   Check what Goal, which the guard has let pass, and the goals in it name. Skeleton is Goal with variables for its Numbers.
+%   Check what Goal, which the guard has let pass, and the goals in it name, as it stands and in its Readings.
 %
 %   @error refused(unknown_name(Kind, Name)), refused(no_number(Property, Unit, Value)), refused(no_value(Relation)),
 %          refused(no_time(Value)), refused(computed_interval(Reader)), type_error(interval, Value)
 
 check_names(Goal) :-
-    check_names(Goal, Goal, []).
+    readings(Goal, [], Readings),
+    check_names(Goal, Readings).
 
-check_names(Goal, Skeleton, Numbers) :-
+check_names(Goal, Readings) :-
     forall(( named(Goal, Kind, Argument), nonvar(Argument) ),
            check_name(Kind, Argument)),
-    forall(readings(Skeleton, Numbers, Reading), check_reading(Reading)).
+    forall(member(Reading, Readings), check_reading(Reading)).
 
 check_reading(Reading) :-
     forall(class(Reading, Kinds, Constants, Terms), check_class(Kinds, Constants, Terms)),
@@ -45,7 +46,7 @@ check_class(Kinds0, Constants, Terms) :-
     (   Kinds = [Kind|_]
     ->  forall(( member(Constant, Constants), \+ ( member(Each, Kinds), accepts(Each, Constant) ) ),
                check_name(Kind, Constant)),
-        forall(( member(Name/Arity, Terms), functor(Term, Name, Arity), \+ ( member(Each, Kinds), accepts(Each, Term) ) ),
+        forall(( member(Name/Arity, Terms), \+ memberchk(Name, ['[|]', '[|']), functor(Term, Name, Arity), \+ ( member(Each, Kinds), accepts(Each, Term) ) ),
                check_name(Kind, Term))
     ;   true
     ).

@@ -2,8 +2,8 @@
 
 :- module(not_as_meant,
           [ read_as_variable/5,         % +Goal, +Bindings, -Variable, -Kind, -Name
-            individual_as_variable/4,   % +Goal, +Bindings, -Variable, -Name
-            told_by_none/4,             % +Goal, -Of, -Value, -Told
+            individual_as_variable/5,   % +Readings, +Variables, +Bindings, -Variable, -Name
+            told_by_none/4,             % +Readings, -Of, -Value, -Told
             outside/3                   % +Goal, +Run, -Instant
           ]).
 :- use_module(library(lists)).
@@ -27,14 +27,13 @@ read_as_variable(Goal, Bindings, Variable, Kind, Name) :-
     folded(Variable, Folded),
     once(( candidate(Kind, Known), named_as(Known, Kind, Name), functor(Name, Plain, _), folded(Plain, Folded) )).
 
-%!  individual_as_variable(+Goal, +Bindings, -Variable, -Name) is nondet.
+%!  individual_as_variable(+Readings, +Variables, +Bindings, -Variable, -Name) is nondet.
 %
-%   True if Variable stands for any individual in Goal, is compared with none, and is spelt as the individual Name but for
-%   capitals. One letter is how variables are written.
+%   True if Variable, one of the Variables of the goal of Readings, stands for any individual, is compared with none, and is
+%   spelt as the individual Name but for capitals. One letter is how variables are written.
 
-individual_as_variable(Goal, Bindings, Variable, Name) :-
-    readings(Goal, [], Reading),
-    term_variables(Goal, Variables),
+individual_as_variable(Readings, Variables, Bindings, Variable, Name) :-
+    member(Reading, Readings),
     variable(Reading, N, Kinds, []),
     memberchk(individual, Kinds),
     nth0(N, Variables, Value),
@@ -50,12 +49,12 @@ small(Name, Small) :-
     downcase_atom(First, Lower),
     atom_concat(Lower, More, Small).
 
-%!  told_by_none(+Goal, -Of, -Value, -Told:list) is nondet.
+%!  told_by_none(+Readings, -Of, -Value, -Told:list) is nondet.
 %
-%   True if Goal asks whether Value is a value of Of, which may be any text, and no run has it, but those Told.
+%   True if the goal of Readings asks whether Value is a value of Of, which may be any text, and no run has it, but those Told.
 
-told_by_none(Goal, Of, Value, Told) :-
-    readings(Goal, [], Reading),
+told_by_none(Readings, Of, Value, Told) :-
+    member(Reading, Readings),
     class(Reading, Kinds, Constants, _),
     member(value(Of), Kinds),
     \+ allowed_value(Of, _),

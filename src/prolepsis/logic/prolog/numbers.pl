@@ -6,7 +6,7 @@
 
 :- module(numbers,
           [ apart/3,                    % +Goal, -Skeleton, -Numbers
-            as_kept/4                   % +Run, +Skeleton, +Numbers, -Kept
+            as_kept/3                   % +Run, +Readings, -Kept
           ]).
 :- use_module(library(apply)).
 :- use_module(library(lists)).
@@ -31,17 +31,14 @@ apart(Term, Term) --> [].
 all_apart([], []) --> [].
 all_apart([Term|Terms], [Skeleton|Skeletons]) --> apart(Term, Skeleton), all_apart(Terms, Skeletons).
 
-%!  as_kept(+Run, +Skeleton, +Numbers, -Kept:list) is det.
+%!  as_kept(+Run, +Readings, -Kept:list) is det.
 %
-%   Kept are the numbers as the module Run has them.
+%   Kept are the numbers of the goal of Readings as the module Run has them.
 
-as_kept(Run, Skeleton, Numbers, Kept) :-
-    (   Numbers == []
-    ->  Kept = []
-    ;   findall(Each, ( readings(Skeleton, Numbers, Reading), number_kinds(Reading, Each) ), [First|More]),
-        foldl(both, More, First, All),
-        maplist(kept(Run), All, Kept)
-    ).
+as_kept(Run, Readings, Kept) :-
+    maplist(number_kinds, Readings, [First|More]),
+    foldl(both, More, First, All),
+    maplist(kept(Run), All, Kept).
 
 both(Some, More, All) :-
     maplist(both_kinds, Some, More, All).
