@@ -114,7 +114,8 @@ class Timeline:
             time_limit: Time after which the query is stopped [s].
 
         Returns:
-            For each distinct answer, the values of the goal's variables (those beginning with ``_`` left out).
+            For each distinct answer, the values of the goal's variables (those beginning with ``_`` left out);
+            ``json.dumps`` takes them as they are.
 
         Raises:
             GoalError: If the goal cannot be read, names an unknown predicate or relation, or is not permitted.

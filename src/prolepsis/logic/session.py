@@ -26,6 +26,7 @@ from prolepsis.logic.rules import read_rules, rule_refusal
 from prolepsis.logic.run_file import write_run
 from prolepsis.logic.unbreakable import unbreakable_note
 from prolepsis.logic.undone import undone_note
+from prolepsis.terms.answers import as_answer
 from prolepsis.terms.errors import GoalError, GoalLimitError, InputError, Note, brief
 from prolepsis.terms.reader import parse_term
 from prolepsis.terms.terms import Value, format_atom, format_value
@@ -308,7 +309,7 @@ def _value(text: str) -> Value:
     if _NAME.fullmatch(text):
         return text
     try:
-        return parse_term(text, where="answer")
+        return as_answer(parse_term(text, where="answer"))
     except (InputError, RecursionError) as error:
         raise GoalError(f"an answer that Python cannot hold (too deep, or no plain term): {text[:80]!r}") from error
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, cast
 
+from prolepsis.terms.answers import is_interval
 from prolepsis.terms.terms import Term, Value, format_value
 
 
@@ -17,12 +18,10 @@ def json_value(value: Value | Sequence[Mapping[str, Value]] | Mapping[str, Value
     Args:
         value: What ``ask`` has returned, or any part of it.
     """
+    if isinstance(value, Term):
+        return dict(zip(("start", "end"), value.args, strict=True)) if is_interval(value) else format_value(value)
     if isinstance(value, Mapping):
         return {name: json_value(each) for name, each in value.items()}
     if isinstance(value, list | tuple):
         return [json_value(each) for each in cast("Sequence[Value]", value)]
-    if isinstance(value, Term) and value.functor == "-" and len(value.args) == 2:
-        start, end = value.args
-        if isinstance(start, int | float) and isinstance(end, int | float):
-            return {"start": start, "end": end}
     return value if isinstance(value, str | int | float) else format_value(cast("Value", value))

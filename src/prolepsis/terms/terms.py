@@ -14,7 +14,8 @@ from dataclasses import dataclass
 from prolepsis.terms.errors import InputError
 
 
-@dataclass(frozen=True, slots=True)
+# Both are without slots: what an answer holds is a text or a table as well, which no class with slots can be.
+@dataclass(frozen=True)
 class Variable:
     """A named placeholder, ``Force``."""
 
@@ -25,7 +26,7 @@ class Variable:
         return self.name
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Term:
     """A functor with arguments, ``grasp(hand1, egg1, 20)``. Without arguments, use a ``str``."""
 
@@ -187,7 +188,7 @@ def _format(value: Value, limit: int) -> str:
     match value:
         case Variable():
             return value.name
-        case str():
+        case str() if not isinstance(value, Term):
             return format_atom(value)
         case int() | float():
             return _format_number(value)
