@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
 import resource
 import shutil
@@ -22,6 +23,7 @@ from prolepsis.log.timeline import Timeline
 from prolepsis.logic import process as processes
 from prolepsis.logic.confinement import Walls, offered, system_calls
 from prolepsis.logic.process import PrologProcess
+from prolepsis.logic.process_folder import new_folder
 from prolepsis.logic.session import Session
 from prolepsis.terms.errors import MissingToolError, Note
 
@@ -241,6 +243,26 @@ def test_folders_of_killed_programs_are_cleaned_by_the_next() -> None:
     assert not folder.exists() and living.folder.exists()
     living.close()
     assert not living.folder.exists()
+
+
+def test_a_new_folder_is_not_cleaned_by_another_that_begins(monkeypatch: pytest.MonkeyPatch) -> None:
+    lock_of = fcntl.flock
+    cleaned: list[int] = []
+
+    def flock(descriptor: int, how: int) -> None:
+        if how == fcntl.LOCK_EX and not cleaned:
+            # Another begins between the making of the folder and its lock.
+            cleaned.append(descriptor)
+            other, lock = new_folder()
+            shutil.rmtree(other)
+            os.close(lock)
+        lock_of(descriptor, how)
+
+    monkeypatch.setattr(fcntl, "flock", flock)
+    folder, lock = new_folder()
+    assert cleaned and folder.is_dir()
+    shutil.rmtree(folder)
+    os.close(lock)
 
 
 @pytest.mark.parametrize("way", ["os.fork", "multiprocessing"])

@@ -10,7 +10,6 @@ however that ends, since then its standard input is closed.
 
 from __future__ import annotations
 
-import fcntl
 import json
 import multiprocessing.util
 import os
@@ -30,6 +29,7 @@ from typing import IO, Any, cast
 from swiplserver import PrologError, PrologLaunchError, PrologMQI, PrologThread
 
 from prolepsis.logic.confinement import Walls, command, offered
+from prolepsis.logic.process_folder import new_folder
 from prolepsis.logic.saved_state import saved_state
 from prolepsis.terms.errors import InputError, MissingToolError, Note, brief
 from prolepsis.terms.terms import format_atom
@@ -47,15 +47,11 @@ LISTENS_AFTER = 0.02
 """Time from which on Prolog listens, mostly, after it has told its socket [s]."""
 RECEIVING_LIMIT = 5.0
 """Longest time for receiving an answer that is there [s]: tens of megabytes."""
-LONGEST_SOCKET = 91
-"""Longest path of a unix domain socket that every system takes [bytes]."""
 REQUIRE_CONFINEMENT = "PROLEPSIS_REQUIRE_CONFINEMENT"
 """Environment variable that refuses to ask where Prolog cannot be confined."""
 NO_SWIPL = "SWI-Prolog is not installed (no 'swipl' on PATH): sudo apt install swi-prolog-nox"
 STATE = "state"
 """Saved state in the folder for the socket."""
-PREFIX, LOCK = "prolepsis-prolog-", "lock"
-"""Of the folder for the socket: how its name begins, and the file that is locked while it is in use."""
 
 
 class ProcessLost(Exception):
@@ -116,7 +112,7 @@ class PrologProcess:
         program = _program()
         self.died = False
         """Whether it had ended before it was ended here."""
-        self.folder, self._lock = _folder()
+        self.folder, self._lock = new_folder()
         self._idle: list[_Connection] = []
         try:
             self._start(program)
@@ -332,49 +328,6 @@ def _program() -> str:
         return program
     own = told.strip("'")
     return own if os.access(own, os.X_OK) else program
-
-
-def _folder() -> tuple[Path, int]:
-    """Return a new folder for the socket and its lock, and remove the folders of programs that were killed."""
-    tried: list[str] = []
-    for parent in dict.fromkeys((_temporary(), "/tmp", "/dev/shm")):
-        if parent is None or len(os.fsencode(parent)) + 60 > LONGEST_SOCKET:
-            continue
-        try:
-            folder = Path(tempfile.mkdtemp(prefix=PREFIX, dir=parent))
-            lock = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
-            fcntl.flock(lock, fcntl.LOCK_EX)
-        except OSError as error:
-            tried.append(f"{parent}: {error.strerror}")
-            continue
-        _clean(Path(parent))
-        return folder, lock
-    raise MissingToolError(f"no folder for temporary files: {'; '.join(tried) or 'set TMPDIR to a short path'}")
-
-
-def _temporary() -> str | None:
-    try:
-        return os.path.abspath(tempfile.gettempdir())
-    except OSError:
-        return None
-
-
-def _clean(parent: Path) -> None:
-    """Remove the folders whose lock nobody holds; a number of a process would tell nothing of another container."""
-    for folder in parent.glob(f"{PREFIX}*"):
-        try:
-            if folder.lstat().st_uid != os.getuid():
-                continue
-            lock = os.open(folder / LOCK, os.O_RDWR | os.O_NOFOLLOW | os.O_CLOEXEC)
-        except OSError:
-            continue
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            shutil.rmtree(folder, ignore_errors=True)
-        except OSError:
-            continue
-        finally:
-            os.close(lock)
 
 
 def _lines(stream: IO[bytes], count: int, deadline: float) -> list[str]:
