@@ -56,6 +56,11 @@ def session() -> Iterator[Session]:
         ("holds(Broken(X), T)", r"Broken is a variable; write broken\("),
         ("Holds (F,T)", r"Holds is a variable; write holds\("),
         ("holds (F, T", "syntax error at column"),
+        ("T1 before T2", r"column 4, before before: before stands before what it is about, in brackets: before\("),
+        ("holds(broken egg1, T)", r"column 7, before broken: broken stands before what it is about"),
+        ("holds(F, S-E), S => 1", r"unknown predicate \(=>\)/2; => is written >="),
+        ("is_a(egg1, 'Egg')", r"unknown predicate is_a/2; ask instance_of\(Individual, Class\)"),
+        ("holds(broken(X), T), Y is X + 1", "egg1 is computed with, and is no number"),
         ("holds(F,T),", "column 11, before ,: a term is missing after ,: "),
         ("holds(F,,T)", r"column 9, before ,T\): a term is missing between , and ,"),
         ("occurs(falling(X,), T)", r"column 18, before \),: a term is missing between , and \)"),
@@ -330,6 +335,7 @@ def test_a_thread_is_answered_while_the_queries_of_others_are_stopped(session: S
 
 def test_all_threads_are_answered_when_the_process_is_killed_between(session: Session) -> None:
     egg = timeline()
+    assert session.ask(egg, "true")
     answers: list[object] = []
 
     def ask() -> None:

@@ -23,7 +23,14 @@ ROOT = Path(__file__).parents[2]
 def timeline() -> Timeline:
     facts = [
         Fact(kind="fluent", type="broken", args=("egg1",), start=0.5, end=2.0, evidence={"force": 44.0}),
-        Fact(kind="event", type="grasping", args=("hand1", "egg1", "force7"), start=0.1, end=0.2),
+        Fact(
+            kind="event",
+            type="grasping",
+            args=("hand1", "egg1", "force7"),
+            start=0.1,
+            end=0.2,
+            evidence={"outcome": "done"},
+        ),
         Fact(kind="fluent", type="glued", args=("knob", "drawer", "left", 3), start=0.0, end=1.0),
         Fact(kind="event", type="snapping_off", args=("knob",), start=1.0, end=1.1, evidence={"crackle": 2.0}),
     ]
@@ -59,6 +66,9 @@ def session() -> Iterator[Session]:
         ("occurs(broken(X), T)", r"^broken is a fluent, no event; ask holds\(broken\(X\), T\)$"),
         ("occurs(faling(X), T)", r"no event faling/1; did you mean falling\(X\)"),
         ("occurs(xyzzy(X), T)", "^no event xyzzy/1; known: absorbing"),
+        ("occurs(dropped(X), T)", r"^no event dropped/1; did you mean dropping\(X, Y\)\?$"),
+        ('holds("broken(egg1)", T)', r"a fact is a term and no text: write broken\(egg1\)$"),
+        ("holds('broken(egg1)', T)", r"a fact is a term and no text: write broken\(egg1\)$"),
         ("occurs(grasping(hand1, egg1), T)", r"it is written grasping\(X, Y, Z\)"),
         ("occurs(picking_up(hand2, egg1), T)", "no individual named hand2 .*; did you mean hand1"),
         ("holds_at(brocken(X), 0.5)", "no fluent brocken/1"),
@@ -146,6 +156,14 @@ COMPARED = [
     ("aggregate_all(max(S, X), holds(broken(X), S-_), max(M, eggg1))", "no individual named eggg1"),
     ("forall(member(X, [eggg1]), holds(broken(X), _))", "no individual named eggg1"),
     # Of other kinds.
+    ("holds(F, T), T = [S, E]", r"^not an interval: \[_\]"),
+    ("allen(R, 0-1, 1-2), R = befor", "^unknown relation 'befor'; known: before, after"),
+    ("argsOf(E, egg1)", r"^not a list: egg1; arguments are a list, as \[egg1\]$"),
+    ("argsOf(E, L), L == egg1", "^not a list: egg1"),
+    ("fact(R, I, broken, egg1, S, E)", "^not a list: egg1"),
+    ("eventT(E, broken)", r"^broken is a fluent, no event; ask fluentT\(X, broken\)$"),
+    ("holds(F, T), fluentT(F, N), N = 'Falling'", "^'?Falling'? is an event, no fluent; ask eventT"),
+    ("holds(broken(done), T)", "no individual named done"),
     ("instance_of(X, C), C = 'Eggg'", "no class named 'Eggg'"),
     ("value(egg1, P, V), P = color", "no property named color"),
     ("value(egg1, mass, V), V = heavy", r"^mass is a number \[kg\], not heavy$"),

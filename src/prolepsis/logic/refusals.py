@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import difflib
+import re
 
 from prolepsis.log.timeline import Timeline
 from prolepsis.logic.process import STACK_LIMIT
-from prolepsis.logic.syntax import syntax_error
-from prolepsis.logic.unknown_names import OTHERWISE, unknown_name
+from prolepsis.logic.syntax import INSTEAD, syntax_error
+from prolepsis.logic.unknown_names import OTHERWISE, a_kind, unknown_name
 from prolepsis.terms.errors import GoalError, GoalLimitError, brief
 
 PERMITTED = (
@@ -20,6 +21,20 @@ RELATIONS = (
 )
 NO_NUMBERS = {"1.5NaN": "nan", "1.0Inf": "inf", "-1.0Inf": "-inf"}
 """How a goal writes what Prolog prints so."""
+NO_FUNCTION = re.compile(r"Arithmetic: `(.*)/0' is not a function")
+OTHER_WORDS = {
+    "is_a": "instance_of(Individual, Class)",
+    "type": "instance_of(Individual, Class)",
+    "part_of": "has_part(Whole, Part)",
+    "count": "aggregate_all(count, Goal, N)",
+    "happens": "occurs(Event, T)",
+    "happened": "occurs(Event, T)",
+    "precedes": "before(I, J)",
+    "follows": "after(I, J)",
+    "duration": "holds(Fluent, S-E), D is E-S",
+    "object": "objOf(FluentOrEvent, Object)",
+}
+"""What is asked otherwise here than elsewhere."""
 SHOWN = 120
 """Characters of a goal that a message shows."""
 
@@ -66,6 +81,11 @@ def refusal(status: str, body: str, goal: str, time_limit: float, timeline: Time
         case "number":
             name, unit, value = body.split("\n")
             return GoalError(f"{name} is a number{f' [{unit}]' if unit != '1' else ''}, not {brief(value)}")
+        case "list":
+            return GoalError(f"not a list: {brief(body)}; arguments are a list, as [{brief(body)}]")
+        case "other":
+            name, kind, other = body.split("\n")
+            return GoalError(f"{brief(name)} is {a_kind(other)}, no {kind}; ask {other}T(X, {brief(name)})")
         case "computed":
             told = "gives an interval and no number to compare; write S-E for it, and compare S, E or E-S, its length"
             return GoalError(f"{brief(body)} {told}")
@@ -80,6 +100,8 @@ def refusal(status: str, body: str, goal: str, time_limit: float, timeline: Time
             return GoalLimitError(f"memory limit of {STACK_LIMIT} MB reached: {shown(goal)}")
         case "much":
             return GoalLimitError(f"the answers have more than {int(body):,} characters; set a limit: {shown(goal)}")
+        case "error" if found := NO_FUNCTION.match(body):
+            return GoalError(f"{brief(found[1])} is computed with, and is no number: {shown(goal)}")
         case "error" if "not sufficiently instantiated" in body:
             return GoalError(
                 f"a value is needed before it is known; give it, or put the goals that find it first: {shown(goal)}"
@@ -96,6 +118,10 @@ def _nearest(name: str, known: list[str], timeline: Timeline) -> str:
         arguments = next(len(fact.args) for fact in timeline.facts if fact.type == plain)
         pattern = f"{plain}({', '.join('XYZUVW'[:arguments])})" if arguments else plain
         return f"{plain} is a type of {types[plain]}; ask {asked}({pattern}, T)"
+    if plain.strip("()") in INSTEAD:
+        return f"{plain.strip('()')} is written {INSTEAD[plain.strip('()')]}"
+    if plain in OTHER_WORDS:
+        return f"ask {OTHER_WORDS[plain]}"
     if plain in ("(:-)", "(-->)"):
         return "a query is one goal; rules are added as chronicles, see docs/queries.md"
     if plain == "('|')":

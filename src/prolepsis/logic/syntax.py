@@ -99,7 +99,7 @@ def _cause(goal: str, position: int, message: str, known: Sequence[str]) -> tupl
         if token[0] in INSTEAD and not token[0].islower():
             return token.start(), f"{token[0]} is no sign of Prolog; write {INSTEAD[token[0]]}"
     tokens = [token for token in found if not token["skipped"] or token[0][0] in "'\"`0"]
-    return _unbalanced(tokens) or _missing(tokens, known) or _other_language(tokens, position, message)
+    return _unbalanced(tokens) or _missing(tokens, known) or _other_language(tokens, position, message, known)
 
 
 def _unbalanced(tokens: list[re.Match[str]]) -> tuple[int, str] | None:
@@ -155,14 +155,19 @@ def _folded(name: str) -> str:
     return name.replace("_", "").casefold()
 
 
-def _other_language(tokens: list[re.Match[str]], position: int, message: str) -> tuple[int, str] | None:
+def _other_language(
+    tokens: list[re.Match[str]], position: int, message: str, known: Sequence[str]
+) -> tuple[int, str] | None:
     if message.startswith("more than one goal"):
         stop = next((token for token in tokens if token[0] == "."), None)
         return None if stop is None else (stop.start(), message)
     if not message.startswith("operator"):
         return None
     here = next((k for k, token in enumerate(tokens) if token.end() > position), len(tokens) - 1)
-    for token in tokens[max(0, here - 1) : here + 1]:
+    for number in range(max(0, here - 1), min(here + 1, len(tokens))):
+        token, behind = tokens[number], tokens[number + 1 : number + 2]
         if token[0] in INSTEAD:
             return token.start(), f"{token[0]} is written {INSTEAD[token[0]]}"
+        if token[0] in known and token[0].isidentifier() and behind and behind[0][0].isidentifier():
+            return token.start(), f"{token[0]} stands before what it is about, in brackets: {token[0]}(...)"
     return None

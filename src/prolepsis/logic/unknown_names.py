@@ -23,6 +23,8 @@ OTHERWISE = {
     "shape": "value(Thing, shape, Shape)",
 }
 """Relations of the ontology that are no facts, and what tells of them."""
+LEAST_STEM, STEM = 4, 0.7
+"""Letters, and share of a name, with which another begins that may have been meant."""
 _FACT = re.compile(r"(.*)/(\d+)-(fluent|event)")
 
 
@@ -40,6 +42,7 @@ def unknown_name(body: str) -> str:
     if facts:
         return _unknown_fact(kind, name, facts)
     near = nearest(name, names)
+    names.sort(key=lambda each: "/" in each)
     told = f"; did you mean {_either(near)}?" if near else f"; known: {brief_list(names)}" if names else ""
     return f"no {what} named {brief(name)} in the vocabulary, the domain or the timelines{told}"
 
@@ -50,16 +53,20 @@ def _unknown_fact(kind: str, name: str, facts: list[tuple[str, int, str]]) -> st
     if kind == "occurring":
         told = " or ".join(pattern(plain, count) for other, count, _ in facts if other == plain)
         return f"{brief(name)} does not occur; what does is written {told}, as the plan has it"
+    bare = (plain or name).strip("'\"")
+    if bare != (plain or name) and re.fullmatch(r"\w+\(.*\)", bare):
+        return f"no {what} {brief(name)}; a fact is a term and no text: write {brief(bare)}"
     for other, count, its in facts:
         if other == plain and str(count) == arity:
-            return f"{plain} is {_a(its)}, no {what}; ask {PREDICATES[its]}({pattern(plain, count)}, T)"
+            return f"{plain} is {a_kind(its)}, no {what}; ask {PREDICATES[its]}({pattern(plain, count)}, T)"
     if plain in OTHERWISE:
         return f"no {what} {brief(name)}; ask {OTHERWISE[plain]}"
     same = [(count, its) for other, count, its in facts if other == plain and kind in (its, "fact")]
     if same:
         told = " or ".join(pattern(plain, count) for count, _ in same)
         return f"no {what} {brief(name)}; it is written {told}"
-    ranked = nearest(plain, [other for other, _, its in facts if kind in (its, "fact")])
+    of_kind = [other for other, _, its in facts if kind in (its, "fact")]
+    ranked = nearest(plain, of_kind) or _of_one_stem(plain, of_kind)
     if ranked:
         shown = [pattern(other, count) for each in ranked for other, count, _ in facts if other == each][:3]
         return f"no {what} {brief(name)}; did you mean {_either(shown)}?"
@@ -84,11 +91,18 @@ def nearest(name: str, known: list[str]) -> list[str]:
     return [plain[each] for each in difflib.get_close_matches(_plain(name), list(plain), n=3, cutoff=0.7)]
 
 
+def _of_one_stem(name: str, known: list[str]) -> list[str]:
+    """Return up to three names that begin as ``name`` does: ``dropping`` for ``dropped``."""
+    stem = _plain(name)[: max(LEAST_STEM, round(STEM * len(_plain(name))))]
+    return sorted({each for each in known if len(stem) >= LEAST_STEM and _plain(each).startswith(stem)})[:3]
+
+
 def _plain(name: str) -> str:
     return name.strip("'\"").replace("_", "").casefold()
 
 
-def _a(kind: str) -> str:
+def a_kind(kind: str) -> str:
+    """Return the name of a kind of fact with its article."""
     return f"an {kind}" if kind[0] in "aeiou" else f"a {kind}"
 
 

@@ -324,6 +324,9 @@ refusal(unknown_name(Kind, Named), ["name\n", Of, "\n", Text, "\n", Known]) :-
 refusal(no_value(Name), ["related\n", Name]).
 refusal(no_number(Name, Unit, Value), ["number\n", Name, "\n", Unit, "\n", Text]) :-
     short_text(Value, Text).
+refusal(no_list(Value), ["list\n", Text]) :-
+    short_text(Value, Text).
+refusal(other_kind(Kind, Name, Other), ["other\n", Name, "\n", Kind, "\n", Other]).
 refusal(computed_interval(Reader), ["computed\n", Text]) :-
     short_text(Reader, Text).
 refusal(no_time(Value), ["instant\n", Text]) :-

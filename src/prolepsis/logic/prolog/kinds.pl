@@ -261,12 +261,16 @@ kind_in(State, '$class'(F), Of) :-
 
 %!  class(+Reading, -Kinds, -Constants, -Terms) is nondet.
 %
-%   The classes of a reading: the kinds of each, the names and numbers that it meets, and its terms as Name/Arity.
+%   The classes of a reading: the kinds of each, the names and numbers that it meets, and its terms, with variables for what
+%   is in them.
 
 class(reading(State, _, _, _), Kinds, Constants, Terms) :-
     State = state(_, Classes),
     gen_assoc(_, Classes, class(Kinds, Constants, Terms0, _)),
-    findall(Name/Arity, member(term(Name, Arity, _), Terms0), Terms).
+    findall(Term, ( member(Term0, Terms0), general_term(Term0, Term) ), Terms).
+
+general_term(Term0, Term), is_written(Term0) => Term = [_].
+general_term(term(Name, Arity, _), Term) => functor(Term, Name, Arity).
 
 %!  variable(+Reading, ?N, -Kinds, -Constants) is nondet.
 %

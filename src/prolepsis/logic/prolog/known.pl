@@ -186,7 +186,7 @@ individual(Run, Name) :-
     table_row(_, Run, Type, _, _, Term, _, _, _),
     compound(Term),
     arg(_, Term, Name).
-individual(Run, Name) :- Run:proof(_, _, Name).
+individual(Run, Name) :- Run:proof(_, Of, Name), \+ allowed_value(Of, _).
 
 %!  declare_event(+Event) is det.
 %

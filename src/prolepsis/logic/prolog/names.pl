@@ -11,6 +11,7 @@
           ]).
 :- use_module(library(apply)).
 :- use_module(library(lists)).
+:- use_module(allen, [relation_names/1]).
 :- use_module(kinds).
 :- use_module(known).
 :- use_module(positions).
@@ -46,7 +47,7 @@ check_class(Kinds0, Constants, Terms) :-
     (   Kinds = [Kind|_]
     ->  forall(( member(Constant, Constants), \+ ( member(Each, Kinds), accepts(Each, Constant) ) ),
                check_name(Kind, Constant)),
-        forall(( member(Name/Arity, Terms), \+ memberchk(Name, ['[|]', '[|']), functor(Term, Name, Arity), \+ ( member(Each, Kinds), accepts(Each, Term) ) ),
+        forall(( member(Term, Terms), \+ ( member(Each, Kinds), accepts(Each, Term) ) ),
                check_name(Kind, Term))
     ;   true
     ).
@@ -54,7 +55,6 @@ check_class(Kinds0, Constants, Terms) :-
 anything(any).
 anything(number).
 anything(computed).
-anything(arguments).
 anything(argument).
 
 accepts(individual, Term), ( compound(Term) ; number(Term) ) => true.
@@ -108,9 +108,15 @@ check_name(interval, Interval) =>
     must_be_interval(Interval).
 check_name(Instant, Time), memberchk(Instant, [instant, end]) =>
     must_be_instant(Time).
-check_name(arguments, _) =>
-    true.
+check_name(arguments, List) =>
+    check_list(List).
+check_name(relation, Relation) =>
+    relation_names(Names),
+    ( memberchk(Relation, Names) -> true ; throw(refused(unknown_relation(Relation))) ).
+check_name(type(Kind), Name), atom(Name), \+ known(type(Kind), Name), other_kind(Kind, Other), known(type(Other), Name) =>
+    throw(refused(other_kind(Kind, Name, Other))).
 check_name(individuals, List) =>
+    check_list(List),
     forall(( listed(List, Each), ( atom(Each) ; string(Each) ) ), check_name(individual, Each)).
 check_name(property, Name), related(Name) =>
     throw(refused(no_value(Name))).
@@ -121,6 +127,15 @@ check_name(Kind, Name) =>
         known(Kind, Name)
     ->  true
     ;   unknown(Kind, Name)
+    ).
+
+other_kind(fluent, event).
+other_kind(event, fluent).
+
+check_list(List) :-
+    (   ( var(List) ; List == [] ; List = [_|_] )
+    ->  true
+    ;   throw(refused(no_list(List)))
     ).
 
 %   listed(+List, -Each): of a list that may end in a variable; [] is none.

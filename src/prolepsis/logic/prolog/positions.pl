@@ -43,7 +43,7 @@ takes(Relation) :-
     interval_relation(Name),
     functor(Relation, Name, 2),
     Relation =.. [_, interval, interval].
-takes(allen(?, interval, interval)).
+takes(allen(relation, interval, interval)).
 
 interval_relation(after).
 interval_relation(before).
