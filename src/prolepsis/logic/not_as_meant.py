@@ -9,7 +9,7 @@ from prolepsis.logic.open_ends import MOST_LOOKED_AT
 from prolepsis.logic.refusals import shown
 from prolepsis.logic.unknown_names import WHAT, nearest
 from prolepsis.terms.errors import brief, brief_list
-from prolepsis.terms.terms import Value, format_value
+from prolepsis.terms.terms import Term, Value, format_value
 
 TOLD = "\x1f"
 """Stands between the values that are told."""
@@ -27,9 +27,15 @@ def meaning_notes(read: str, goal: str, duration: float, answers: Sequence[Mappi
     fields = read.split("\t") if read else []
     told: list[str] = []
     for text, kind, name in zip(fields[0::3], fields[1::3], fields[2::3], strict=True):
-        if kind.startswith("value of "):
+        if kind == "value" or kind.startswith("value of "):
+            meant = _meant(text, name.split(TOLD)) if name else "it is what values are called, and stands before them"
             if not answers:
-                told.append(f"no, but no {kind} is {brief(text)} here; {_meant(text, name.split(TOLD))}")
+                told.append(f"no, but no {kind} is {brief(text)} here; {meant}")
+        elif kind == "compared":
+            if not answers:
+                told.append(f"no, but nothing gives {text} the value that == compares; = gives it one, and is computes")
+        elif kind == "collected":
+            told.append(f"{text} is collected, and stands in no goal that gives it a value")
         elif kind != "time":
             if kind == "individual" and answers and all(_is(answer.get(text, ""), name) for answer in _some(answers)):
                 continue
@@ -38,6 +44,25 @@ def meaning_notes(read: str, goal: str, duration: float, answers: Sequence[Mappi
         elif not answers:
             told.append(f"no, but the log tells nothing of {brief(text)} s: it lasts from 0 to {duration:g} s")
     return [f"{each}: {shown(goal)}" for each in dict.fromkeys(told)]
+
+
+def uncomputed_note(answers: Sequence[Mapping[str, Value]], goal: str) -> str:
+    """Return the note on answers that hold sums of numbers that nothing has computed, empty if there are none.
+
+    What is written as a difference is an interval as long as its start is before its end.
+    """
+    for answer in _some(answers):
+        for name, value in answer.items():
+            match value:
+                case Term(functor="+" | "*" | "/", args=(int() | float(), int() | float())):
+                    computed = False
+                case Term(functor="-", args=(int() | float() as start, int() | float() as end)):
+                    computed = start <= end
+                case _:
+                    computed = True
+            if not computed:
+                return f"{name} = {format_value(value)} is not computed; write {name} is ...: {shown(goal)}"
+    return ""
 
 
 def _some(answers: Sequence[Mapping[str, Value]]) -> Iterator[Mapping[str, Value]]:

@@ -17,8 +17,9 @@ from pathlib import Path
 
 from prolepsis.log.timeline import Timeline
 from prolepsis.logic.near_threshold import near_note
-from prolepsis.logic.not_as_meant import meaning_notes
+from prolepsis.logic.not_as_meant import meaning_notes, uncomputed_note
 from prolepsis.logic.open_ends import open_note
+from prolepsis.logic.otherwise import otherwise_note
 from prolepsis.logic.pasting import pasted
 from prolepsis.logic.process import ProcessLost, PrologProcess
 from prolepsis.logic.refusals import refusal, shown
@@ -184,6 +185,8 @@ class Session:
             open_note(answers, open_ends, goal),
             "" if answers else undone_note(timeline, goal),
             "" if answers else unbreakable_note(timeline, goal),
+            "" if answers else otherwise_note(timeline, goal),
+            uncomputed_note(answers, goal),
             near_note(timeline, answers, goal),
         ]
         for note in filter(None, notes):

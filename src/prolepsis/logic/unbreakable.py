@@ -7,10 +7,11 @@ from collections.abc import Iterator
 
 from prolepsis.log.fact_types import ONLY_OF, TOLD_INSTEAD
 from prolepsis.log.timeline import Fact, Timeline
+from prolepsis.logic.otherwise import subterms
 from prolepsis.logic.refusals import shown
 from prolepsis.terms.errors import InputError, brief
 from prolepsis.terms.reader import parse_term
-from prolepsis.terms.terms import Term, Value, format_atom, format_value
+from prolepsis.terms.terms import Term, format_atom, format_value
 
 MOST = 3
 """So many things are told of."""
@@ -33,7 +34,7 @@ def unbreakable_note(timeline: Timeline, goal: str) -> str:
 def _asked(goal: str, known: set[str]) -> Iterator[tuple[str, str]]:
     """Yield each type and the thing of which it is asked, empty if none is named."""
     try:
-        terms = [*_within(parse_term(goal))]
+        terms = [*subterms(parse_term(goal))]
     except (InputError, RecursionError):
         terms = []
     named = [each for each in terms if isinstance(each, Term) and each.functor in ONLY_OF and len(each.args) == 1]
@@ -43,12 +44,6 @@ def _asked(goal: str, known: set[str]) -> Iterator[tuple[str, str]]:
     words = {*re.findall(r"\w+", goal)}
     for type_ in words & {*ONLY_OF} - {term.functor for term in named}:
         yield from ((type_, thing) for thing in words & known or {""})
-
-
-def _within(value: Value) -> Iterator[Value]:
-    yield value
-    for each in value.args if isinstance(value, Term) else value if isinstance(value, tuple) else ():
-        yield from _within(each)
 
 
 def _told(timeline: Timeline, type_: str, thing: str) -> str:

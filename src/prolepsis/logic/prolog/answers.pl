@@ -2,7 +2,7 @@
 
     A reply is lines: first "ok" ("cut" where a value was too large or deep to be told whole) and, after tabs, what still
     went on when the log ended and bears on the goal; or what went wrong. Then known names that were read as variables,
-    values that none has, and instants outside the log, in threes: as it stands, kind and name, of values those that are told; the variables; and one line for each distinct answer, with the values of the
+    values that none has or that nothing gives, and instants outside the log, in threes: as it stands, kind and name, of values those that are told; the variables; and one line for each distinct answer, with the values of the
     variables separated by tabs, as terms that can be read back.
 */
 
@@ -61,8 +61,10 @@ not_as_meant(Run, Goal, Bindings, Readings, Variables, Read) :-
             ;   individual_as_variable(Readings, Variables, Bindings, Shown, Name),
                 Of = individual,
                 short_text(Name, Text)
+            ;   given_by_none(Goal, Bindings, Shown, Of),
+                Text = ''
             ;   told_by_none(Readings, What, Value, Told),
-                named_kind(value(What), Of),
+                named_kind(What, Of),
                 short_text(Value, Shown),
                 findall(Each, ( member(One, Told), format(atom(Each), '~q', [One]) ), All),
                 atomic_list_concat(All, '\x1F\', Text)

@@ -90,7 +90,7 @@ stands(number, Expression, _) --> !,
     of_kind(Variables, number).
 stands(value(N), Argument, Goal) --> !,
     { arg(N, Goal, Of) },
-    ( { atom(Of) } -> [kind(Argument, value(Of))] ; [] ).
+    ( { atom(Of) } -> [kind(Argument, value(Of))] ; [kind(Argument, value)] ).
 stands(type(Kind), Argument, _) --> !, [kind(Argument, type(Kind))].
 stands(list(Shape), List, Goal) --> !,
     [in(List, Element)],

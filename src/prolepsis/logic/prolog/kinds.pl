@@ -316,6 +316,7 @@ interval_computed(reading(State, Equations, _, _), Reader) :-
     memberchk(number, Kinds),
     \+ ( member(Other, [any, computed, end, instant]), memberchk(Other, Kinds) ),
     \+ memberchk(value(_), Kinds),
+    \+ memberchk(value, Kinds),
     \+ ( member(Constant, Constants), number(Constant) ),
     ( Terms == [] ; memberchk(term(-, 2, _), Terms) ),
     general(Reader0, Reader).

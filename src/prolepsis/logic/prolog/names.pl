@@ -56,6 +56,7 @@ anything(any).
 anything(number).
 anything(computed).
 anything(argument).
+anything(value).
 
 accepts(individual, Term), ( compound(Term) ; number(Term) ) => true.
 accepts(Kind, Term) => catch(check_name(Kind, Term), Error, refuses(Error)).

@@ -3,7 +3,8 @@
 :- module(not_as_meant,
           [ read_as_variable/5,         % +Goal, +Bindings, -Variable, -Kind, -Name
             individual_as_variable/5,   % +Readings, +Variables, +Bindings, -Variable, -Name
-            told_by_none/4,             % +Readings, -Of, -Value, -Told
+            told_by_none/4,             % +Readings, -Kind, -Value, -Told
+            given_by_none/4,            % +Goal, +Bindings, -Variable, -How
             outside/3                   % +Goal, +Run, -Instant
           ]).
 :- use_module(library(lists)).
@@ -49,22 +50,48 @@ small(Name, Small) :-
     downcase_atom(First, Lower),
     atom_concat(Lower, More, Small).
 
-%!  told_by_none(+Readings, -Of, -Value, -Told:list) is nondet.
+%!  told_by_none(+Readings, -Kind, -Value, -Told:list) is nondet.
 %
-%   True if the goal of Readings asks whether Value is a value of Of, which may be any text, and no run has it, but those Told.
+%   True if the goal of Readings asks whether Value is a value of a Kind that may be any text, and no run has it, but those
+%   Told; Kind is value(Of), or value, if of anything, where Value is what values are called.
 
-told_by_none(Readings, Of, Value, Told) :-
+told_by_none(Readings, Kind, Value, Told) :-
     member(Reading, Readings),
     class(Reading, Kinds, Constants, _),
-    member(value(Of), Kinds),
-    \+ allowed_value(Of, _),
-    \+ quantity(Of, _),
+    member(Kind, Kinds),
+    free(Kind),
     member(Value, Constants),
     ( atom(Value) ; string(Value) ),
-    \+ stored_value(Of, Value),
-    findall(Each, ( stored_value_of(Of, Each), atom(Each) ), All),
+    \+ has(Kind, Value),
+    findall(Each, ( Kind = value(_), has(Kind, Each), atom(Each) ), All),
     sort(All, Told),
-    Told \== [].
+    ( Kind == value -> known(quantity, Value) ; Told \== [] ).
+
+free(value).
+free(value(Of)) :-
+    \+ allowed_value(Of, _),
+    \+ quantity(Of, _).
+
+has(value, Value) :- ( allowed_value(_, Value) ; stored_value_of(_, Value) ), !.
+has(value(Of), Value) :- stored_value_of(Of, Value).
+
+%!  given_by_none(+Goal, +Bindings, -Variable, -How) is nondet.
+%
+%   True if nothing in Goal gives Variable the value that is compared with a number, or that is collected.
+
+given_by_none(Goal, Bindings, Variable, How) :-
+    member(Variable=Value, Bindings),
+    var(Value),
+    occurrences_of_var(Value, Goal, 1),
+    within(Goal, Inner),
+    (   ( Inner = (A == B) ; Inner = (A \== B) ),
+        ( A == Value, number(B) ; B == Value, number(A) )
+    ->  How = compared
+    ;   Inner =.. [Collects, Template|_],
+        memberchk(Collects, [findall, bagof, setof, aggregate_all]),
+        occurrences_of_var(Value, Template, 1)
+    ->  How = collected
+    ).
 
 %   what(+Kind): of a Kind that is not an individual, which may be there in one run and not in another.
 

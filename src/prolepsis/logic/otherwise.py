@@ -1,0 +1,72 @@
+"""What is said of a "no" where the same is told otherwise: of two things the other way round, or by another number."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from prolepsis.log.evidence_names import EVIDENCE_UNITS
+from prolepsis.log.fact_types import SYMMETRIC
+from prolepsis.log.timeline import Timeline
+from prolepsis.logic.refusals import shown
+from prolepsis.terms.errors import InputError, brief
+from prolepsis.terms.reader import parse_term
+from prolepsis.terms.terms import Term, Value, format_atom, format_value
+
+MOST = 3
+"""So much is told."""
+OTHER_UNIT = 10.0
+"""A number that is so many times another may be in another unit [1]."""
+
+
+def otherwise_note(timeline: Timeline, goal: str) -> str:
+    """Return the note on a goal without answers, empty if it needs none.
+
+    Args:
+        timeline: What was asked.
+        goal: The goal as it was asked; what it says of two things, or with a number, is looked up otherwise.
+    """
+    try:
+        asked = [each for each in subterms(parse_term(goal)) if isinstance(each, Term)]
+    except (InputError, RecursionError):
+        return ""
+    told = [told for each in asked for told in (*_other_way_round(timeline, each), *_other_number(timeline, each))]
+    told = list(dict.fromkeys(told))
+    return f"no, but {'; '.join(told[:MOST])}{' ...' if len(told) > MOST else ''}: {shown(goal)}" if told else ""
+
+
+def subterms(value: Value) -> Iterator[Value]:
+    """Yield a value and all that is in it."""
+    yield value
+    for each in value.args if isinstance(value, Term) else value if isinstance(value, tuple) else ():
+        yield from subterms(each)
+
+
+def _other_way_round(timeline: Timeline, asked: Term) -> Iterator[str]:
+    if len(asked.args) != 2 or not all(isinstance(each, str) for each in asked.args) or asked.functor in SYMMETRIC:
+        return
+    parts = [("has_part", row) for row in timeline.domain.parts] if asked.functor == "has_part" else []
+    facts = {*parts, *((fact.type, fact.args) for fact in timeline.facts if fact.type == asked.functor)}
+    if (asked.functor, asked.args[::-1]) in facts and (asked.functor, asked.args) not in facts:
+        yield f"{brief(format_value(Term(asked.functor, asked.args[::-1])))} is so, the other way round"
+
+
+def _other_number(timeline: Timeline, asked: Term) -> Iterator[str]:
+    match asked:
+        case Term(functor="value", args=(str(thing), str(name), int() | float() as given)):
+            numbers = [value for of, its, value in timeline.domain.values if (of, its) == (thing, name)]
+        case Term(functor="evidence", args=(thing, _, str(name), int() | float() as given)):
+            numbers = [fact.evidence.get(name) for fact in timeline.facts if fact.term == thing]
+        case _:
+            return
+    unit = {**EVIDENCE_UNITS, **dict(timeline.domain.units)}.get(name, "")
+    for number in numbers:
+        if isinstance(number, int | float) and _meant(given, number):
+            of_unit = f" {unit}" if unit not in ("", "1") else ""
+            yield f"{format_atom(name)} of {brief(format_value(thing))} is {number:.6g}{of_unit}"
+
+
+def _meant(given: float, number: float) -> bool:
+    """Return whether a number was meant by one that is given: rounded, or in another unit."""
+    decimals = len(repr(given).partition(".")[2])
+    ratio = abs(number / given) if given else 1.0
+    return round(number, decimals) == given or not 1 / OTHER_UNIT < ratio < OTHER_UNIT

@@ -1,0 +1,82 @@
+"""What is said beside an answer that is right, and asks something else than was meant, perhaps."""
+
+from __future__ import annotations
+
+import pytest
+
+from prolepsis.log.domain import Domain
+from prolepsis.log.timeline import Fact, make_timeline
+from prolepsis.terms.errors import Note
+
+RUN = make_timeline(
+    [
+        Fact(kind="fluent", type="contains", args=("cup1", "liq1"), start=0.0, end=1.0, evidence={"fraction": 0.8132}),
+        Fact(kind="fluent", type="broken", args=("egg1",), start=0.5, end=2.0, evidence={"by": "situation"}),
+        Fact(kind="event", type="colliding", args=("egg1", "cup1"), start=0.5, end=0.6),
+    ],
+    dt=1e-3,
+    duration=2.0,
+    domain=Domain(parts=(("egg1", "eggshell1"),), values=(("egg1", "mass", 0.0582),), units=(("mass", "kg"),)),
+)
+
+
+@pytest.mark.parametrize(
+    ("goal", "told"),
+    [
+        ("holds(contains(liq1, cup1), T)", r"contains\(cup1,liq1\) is so, the other way round"),
+        ("holds(F, T), F = contains(liq1, cup1)", r"contains\(cup1,liq1\) is so"),
+        ("has_part(eggshell1, egg1)", r"has_part\(egg1,eggshell1\) is so"),
+        ("value(egg1, mass, 58)", r"mass of egg1 is 0\.0582 kg"),
+        ("value(egg1, mass, 0.06)", r"mass of egg1 is 0\.0582 kg"),
+        ("evidence(contains(cup1, liq1), T, fraction, 0.8)", r"fraction of contains\(cup1,liq1\) is 0\.8132"),
+        ("evidence(broken(egg1), T, Name, fraction)", "no value is fraction here"),
+        ("evidence(broken(egg1), T, Name, V), V == mass", "no value is mass here"),
+        ("holds(broken(egg1), S-E), D == 1.5", "nothing gives D the value that == compares"),
+    ],
+)
+def test_no_says_what_is_told_otherwise(goal: str, told: str) -> None:
+    with pytest.warns(Note, match=f"^no, but {told}"):
+        assert RUN.ask(goal) == []
+
+
+@pytest.mark.parametrize(
+    ("goal", "told"),
+    [
+        ("holds(broken(egg1), S-E), D = E-S", r"D = 2\.0-0\.5 is not computed; write D is"),
+        ("holds(broken(egg1), S-E), D = S*2", r"D = 0\.5\*2 is not computed"),
+        ("findall(X, holds(broken(Y), T), L)", "X is collected, and stands in no goal that gives it a value"),
+        ("setof(X-Y, T^holds(broken(X), T), L)", "Y is collected"),
+    ],
+)
+def test_an_answer_says_what_it_is_not(goal: str, told: str) -> None:
+    with pytest.warns(Note, match=told):
+        assert RUN.ask(goal)
+
+
+@pytest.mark.parametrize(
+    "goal",
+    [
+        "holds(contains(cup1, liq1), 1.5)",  # what is told so holds at another time
+        "holds(contains(liq1, egg1), T)",
+        "value(egg1, mass, 0.07)",
+        "evidence(contains(cup1, liq1), T, fraction, 0.5)",
+        "evidence(E, T, Name, situation), fail",
+        "occurs(colliding(cup1, egg1), 1.5)",
+    ],
+)
+def test_no_is_no_where_nothing_else_is_told(goal: str) -> None:
+    assert RUN.ask(goal) == []
+
+
+@pytest.mark.parametrize(
+    "goal",
+    [
+        "holds(broken(egg1), S-E), T = S-E",
+        "holds(broken(X), _), findall(X, true, L)",
+        "findall(found, holds(broken(_), _), L)",
+        "X = egg1, X == egg1",
+        "findall(_X, holds(broken(_), _), L)",
+    ],
+)
+def test_no_word_is_lost_where_nothing_is_mistaken(goal: str) -> None:
+    assert RUN.ask(goal)
