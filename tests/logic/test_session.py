@@ -57,6 +57,8 @@ def session() -> Iterator[Session]:
         ("Holds (F,T)", r"Holds is a variable; write holds\("),
         ("holds (F, T", "syntax error at column"),
         ("T1 before T2", r"column 4, before before: before stands before what it is about, in brackets: before\("),
+        ("holds(broken(X), 1 s)", "column 20, before s.: a number stands without its unit, in SI units .*; write 1"),
+        ("evidence(E, T, force, F), F > 40N", "a number stands without its unit"),
         ("holds(broken egg1, T)", r"column 7, before broken: broken stands before what it is about"),
         ("holds(F, S-E), S => 1", r"unknown predicate \(=>\)/2; => is written >="),
         ("is_a(egg1, 'Egg')", r"unknown predicate is_a/2; ask instance_of\(Individual, Class\)"),

@@ -144,6 +144,9 @@ COMPARED = [
     ("holds(F, T), functor(F, broken, 2)", r"no fluent broken/2; it is written broken\(X\)"),
     ("occurs(E, T), functor(E, N, _), N = faling", "no event named faling .*; did you mean falling"),
     ("holds(F, T), arg(1, F, eggg1)", "no individual named eggg1"),
+    ("holds(F, T), F =.. L, L = [brocken, X]", "no fluent named brocken"),
+    ("holds(F, T), F =.. L, L = [_, eggg1]", "no individual named eggg1"),
+    ("fact(R, I, Type, Args, S, E), memberchk(eggg1, Args)", "no individual named eggg1"),
     # Of what is collected.
     ("findall(X, holds(broken(X), _), L), member(eggg1, L)", "no individual named eggg1"),
     ("findall(X, holds(broken(X), _), L), L == [eggg1]", "no individual named eggg1"),

@@ -168,6 +168,10 @@ def _other_language(
         token, behind = tokens[number], tokens[number + 1 : number + 2]
         if token[0] in INSTEAD:
             return token.start(), f"{token[0]} is written {INSTEAD[token[0]]}"
+        if token["number"] and behind and behind[0][0].isalpha():
+            return behind[
+                0
+            ].start(), f"a number stands without its unit, in SI units (seconds, N, m, kg); write {token[0]}"
         if token[0] in known and token[0].isidentifier() and behind and behind[0][0].isidentifier():
             return token.start(), f"{token[0]} stands before what it is about, in brackets: {token[0]}(...)"
     return None

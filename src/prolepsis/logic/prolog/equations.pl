@@ -15,7 +15,7 @@
 %!  equations(+Goal)// is nondet.
 %
 %   What Goal tells, each as same(A, B), in(List, Element), kind(Term, Kind), named(Fact, Name, Arity),
-%   argument(Fact, Argument) or gives(Interval, Reader).
+%   argument(Fact, Argument), apart(Fact, List) or gives(Interval, Reader).
 
 equations(Goal) --> { var(Goal) }, !.
 equations((A ; B)) -->
@@ -65,6 +65,7 @@ form(Goal, Form) :-
     ),
     !.
 
+univ(List, F) --> { var(List) }, !, [apart(F, List)].
 univ([Name|Arguments], F) -->
     !,
     [named(F, Name, _)],

@@ -228,7 +228,7 @@ add_found(element(I, Element), State0, State) =>
     join_classes(In, Element, State1, State).
 
 spreads(_, state(_, Classes), I, Kind) :-
-    gen_assoc(_, Classes, class(Kinds, _, Terms, _)),
+    gen_assoc(_, Classes, class(Kinds, _, Terms, Element)),
     member(Of, Kinds),
     (   fact_kind(Of),
         member(term(_, _, Numbers), Terms),
@@ -239,8 +239,12 @@ spreads(_, state(_, Classes), I, Kind) :-
         member(I, Numbers),
         Kind = end
     ;   list_of(Of, Each),
-        member(Term, Terms),
-        ( item(Term, I), Kind = Each ; rest(Term, I), Kind = Of )
+        (   Element \== none,
+            I = Element,
+            Kind = Each
+        ;   member(Term, Terms),
+            ( item(Term, I), Kind = Each ; rest(Term, I), Kind = Of )
+        )
     ).
 spreads(Equations, State, I, Kind) :-
     member(Equation, Equations),
@@ -248,6 +252,10 @@ spreads(Equations, State, I, Kind) :-
         Kind = name(Of)
     ;   Equation = argument(Fact, '$class'(I)),
         Kind = individual
+    ;   Equation = apart(Fact, '$class'(L)),
+        root(L, State, _, class(_, _, Terms, _)),
+        member(term('[|]', _, [Name|Arguments]), Terms),
+        ( I = Name, Kind = name(Of) ; member(I, Arguments), Kind = individual )
     ),
     kind_in(State, Fact, Of).
 
