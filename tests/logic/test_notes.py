@@ -31,6 +31,7 @@ RUN = make_timeline(
         ("evidence(contains(cup1, liq1), T, fraction, 0.8)", r"fraction of contains\(cup1,liq1\) is 0\.8132"),
         ("evidence(broken(egg1), T, Name, fraction)", "no value is fraction here"),
         ("evidence(broken(egg1), T, Name, V), V == mass", "no value is mass here"),
+        ("occurs(E, S-E)", "E stands for a fluent or event, and for a time, and nothing is both"),
         ("holds(broken(egg1), S-E), D == 1.5", "nothing gives D the value that == compares"),
     ],
 )
@@ -62,6 +63,7 @@ def test_an_answer_says_what_it_is_not(goal: str, told: str) -> None:
         "evidence(contains(cup1, liq1), T, fraction, 0.5)",
         "evidence(E, T, Name, situation), fail",
         "occurs(colliding(cup1, egg1), 1.5)",
+        "(occurs(E, _) ; holds(broken(X), S-E)), fail",
     ],
 )
 def test_no_is_no_where_nothing_else_is_told(goal: str) -> None:

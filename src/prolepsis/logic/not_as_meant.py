@@ -7,7 +7,7 @@ from itertools import islice
 
 from prolepsis.logic.open_ends import MOST_LOOKED_AT
 from prolepsis.logic.refusals import shown
-from prolepsis.logic.unknown_names import WHAT, nearest
+from prolepsis.logic.unknown_names import WHAT, a_kind, nearest
 from prolepsis.terms.errors import brief, brief_list
 from prolepsis.terms.terms import Term, Value, format_value
 
@@ -34,6 +34,9 @@ def meaning_notes(read: str, goal: str, duration: float, answers: Sequence[Mappi
         elif kind == "compared":
             if not answers:
                 told.append(f"no, but nothing gives {text} the value that == compares; = gives it one, and is computes")
+        elif kind == "both":
+            if not answers:
+                told.append(f"no, but {text} stands for a fluent or event, and for {a_kind(name)}, and nothing is both")
         elif kind == "collected":
             told.append(f"{text} is collected, and stands in no goal that gives it a value")
         elif kind != "time":

@@ -1,9 +1,9 @@
 /*  Answers: a goal in text is read, checked, put in order, run within its limits, and answered in text.
 
     A reply is lines: first "ok" ("cut" where a value was too large or deep to be told whole) and, after tabs, what still
-    went on when the log ended and bears on the goal; or what went wrong. Then known names that were read as variables,
-    values that none has or that nothing gives, and instants outside the log, in threes: as it stands, kind and name, of values those that are told; the variables; and one line for each distinct answer, with the values of the
-    variables separated by tabs, as terms that can be read back.
+    went on when the log ended and bears on the goal; or what went wrong. Then what may not have been meant, in threes: as it
+    stands, of what kind that is, and the name that was meant or the values that are told; the variables; and one line for
+    each distinct answer, with the values of the variables separated by tabs, as terms that can be read back.
 */
 
 :- module(answers,
@@ -61,6 +61,8 @@ not_as_meant(Run, Goal, Bindings, Readings, Variables, Read) :-
             ;   individual_as_variable(Readings, Variables, Bindings, Shown, Name),
                 Of = individual,
                 short_text(Name, Text)
+            ;   never_both(Readings, Variables, Bindings, Shown, Text),
+                Of = both
             ;   given_by_none(Goal, Bindings, Shown, Of),
                 Text = ''
             ;   told_by_none(Readings, What, Value, Told),

@@ -172,4 +172,3 @@ check_individuals(N, Term) :-
     ),
     Rest is N-1,
     check_individuals(Rest, Term).
-

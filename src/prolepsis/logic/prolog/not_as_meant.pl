@@ -4,6 +4,7 @@
           [ read_as_variable/5,         % +Goal, +Bindings, -Variable, -Kind, -Name
             individual_as_variable/5,   % +Readings, +Variables, +Bindings, -Variable, -Name
             told_by_none/4,             % +Readings, -Kind, -Value, -Told
+            never_both/5,               % +Readings, +Variables, +Bindings, -Variable, -What
             given_by_none/4,            % +Goal, +Bindings, -Variable, -How
             outside/3                   % +Goal, +Run, -Instant
           ]).
@@ -74,6 +75,27 @@ free(value(Of)) :-
 
 has(value, Value) :- ( allowed_value(_, Value) ; stored_value_of(_, Value) ), !.
 has(value(Of), Value) :- stored_value_of(Of, Value).
+
+%!  never_both(+Readings, +Variables, +Bindings, -Variable, -What) is nondet.
+%
+%   True if Variable, one of the Variables of the goal of Readings, stands for a fact, and for What, which no fact is.
+
+never_both(Readings, Variables, Bindings, Variable, What) :-
+    member(Reading, Readings),
+    variable(Reading, N, Kinds, _),
+    once(( member(Kind, Kinds), fact_kind(Kind) )),
+    once(( member(Other, Kinds), no_fact(Other, What) )),
+    nth0(N, Variables, Value),
+    member(Variable=Same, Bindings),
+    Same == Value.
+
+no_fact(end, time).
+no_fact(instant, time).
+no_fact(time, time).
+no_fact(interval, time).
+no_fact(individual, individual).
+no_fact(class, class).
+no_fact(property, property).
 
 %!  given_by_none(+Goal, +Bindings, -Variable, -How) is nondet.
 %
