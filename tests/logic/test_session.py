@@ -425,3 +425,12 @@ def test_a_displacement_of_an_action_is_the_list_that_the_plan_has() -> None:
     assert timeline.ask("occurs(carrying(hand1, [0.1, -0.37, 0]), T)")
     (answer,) = timeline.ask("occurs(carrying(H, D), _), is_list(D), nth0(1, D, Y)")
     assert answer["Y"] == -0.37 and answer["H"] == "hand1"
+    assert format_value(carrying.term) == "carrying(hand1,[0.1,-0.37,0])"
+    assert timeline.ask(f"occurs({format_value(carrying.term)}, T)")
+
+
+def test_a_text_that_is_no_list_of_numbers_is_a_text() -> None:
+    for text in ("[1.2.3]", "[1.]", "[-]", "[1,]", "[]"):
+        fact = Fact(kind="event", type="carrying", args=("hand1", text), start=0.0, end=0.5)
+        (answer,) = make_timeline([fact], dt=0.001, duration=1.0).ask("occurs(carrying(H, D), _)")
+        assert answer["D"] == text

@@ -7,6 +7,7 @@ term and interval names it. Times are instants of ticks, each always the same fl
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import groupby
@@ -23,8 +24,18 @@ Evidence = Mapping[str, "float | str"]
 _GREATEST, _LONGEST = 1e300, 1e15
 """What is greater is no number of a fact, and no time [s]."""
 _KINDS = ("fluent", "event")
+_NUMBER = r"-?[0-9]+(?:\.[0-9]+(?:e[-+]?[0-9]+)?)?"
+NUMBERS = re.compile(rf"\[{_NUMBER}(?:,{_NUMBER})*\]")
+"""A list of numbers as an argument has it."""
 ENDS, WITH_LOG = "ends", "with the log"
 """Evidence of an event that still went on when the log ended: its end is not its own."""
+
+
+def _of_a_term(argument: Argument) -> Value:
+    """Return an argument as it stands in a term: a displacement is a list there, as in the plan."""
+    if isinstance(argument, str) and NUMBERS.fullmatch(argument):
+        return tuple(float(each) if "." in each else int(each) for each in argument[1:-1].split(","))
+    return argument
 
 
 def _no_evidence() -> dict[str, float | str]:
@@ -58,7 +69,7 @@ class Fact:
     @property
     def term(self) -> Value:
         """The fact as a term, ``contacts(hand1,egg1)``; an atom when there are no arguments."""
-        return Term(self.type, self.args) if self.args else self.type
+        return Term(self.type, tuple(map(_of_a_term, self.args))) if self.args else self.type
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, weakref_slot=True, eq=False)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from pathlib import Path
@@ -10,13 +9,11 @@ from pathlib import Path
 from prolepsis.log.asserted import with_asserted
 from prolepsis.log.fact_types import SYMMETRIC, fact_types
 from prolepsis.log.near import MARGIN
-from prolepsis.log.timeline import Argument, Fact, Timeline
+from prolepsis.log.timeline import NUMBERS, Argument, Fact, Timeline
 from prolepsis.logic.unknown_names import OTHERWISE
 from prolepsis.terms.terms import format_atom, format_value
 from prolepsis.terms.ticks import ticks_of
 
-_LIST = re.compile(r"\[-?[0-9.]+(?:e[-+]?[0-9]+)?(?:,-?[0-9.]+(?:e[-+]?[0-9]+)?)*\]")
-"""A list of numbers as it is written."""
 _atom = lru_cache(maxsize=65536)(format_atom)
 
 
@@ -45,7 +42,7 @@ def _term(fact: Fact) -> str:
 def _text(value: Argument) -> str:
     if isinstance(value, str):
         # A displacement of an action is a list in a goal, as it is in the plan.
-        return value if _LIST.fullmatch(value) else _atom(value)
+        return value if NUMBERS.fullmatch(value) else _atom(value)
     return format_value(value)
 
 
