@@ -13,6 +13,7 @@ RUN = make_timeline(
         Fact(kind="fluent", type="contains", args=("cup1", "liq1"), start=0.0, end=1.0, evidence={"fraction": 0.8132}),
         Fact(kind="fluent", type="broken", args=("egg1",), start=0.5, end=2.0, evidence={"by": "situation"}),
         Fact(kind="event", type="colliding", args=("egg1", "cup1"), start=0.5, end=0.6),
+        Fact(kind="event", type="lifting", args=("hand1", 0.1), start=0.1, end=0.2),
     ],
     dt=1e-3,
     duration=2.0,
@@ -29,6 +30,7 @@ RUN = make_timeline(
         ("value(egg1, mass, 58)", r"mass of egg1 is 0\.0582 kg"),
         ("value(egg1, mass, 0.06)", r"mass of egg1 is 0\.0582 kg"),
         ("evidence(contains(cup1, liq1), T, fraction, 0.8)", r"fraction of contains\(cup1,liq1\) is 0\.8132"),
+        ("occurs(lifting(hand1, 10), T)", r"lifting\(hand1,0\.1\) is so"),
         ("evidence(broken(egg1), T, Name, fraction)", "no value is fraction here"),
         ("evidence(broken(egg1), T, Name, V), V == mass", "no value is mass here"),
         ("occurs(E, S-E)", "E stands for a fluent or event, and for a time, and nothing is both"),
@@ -59,6 +61,8 @@ def test_an_answer_says_what_it_is_not(goal: str, told: str) -> None:
     [
         "holds(contains(cup1, liq1), 1.5)",  # what is told so holds at another time
         "holds(contains(liq1, egg1), T)",
+        "occurs(lifting(hand1, 0.1), 1.5)",
+        "occurs(lifting(_, 10), T)",
         "value(egg1, mass, 0.07)",
         "evidence(contains(cup1, liq1), T, fraction, 0.5)",
         "evidence(E, T, Name, situation), fail",

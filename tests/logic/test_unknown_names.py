@@ -196,6 +196,7 @@ def test_what_a_variable_is_compared_with_is_known_as_what_it_stands_for(
         ("(X = nobody ; holds(broken(X), _)), S = X", "nobody"),
         ("holds(F, T), L = [F, 1, T, 'Two words', nobody], last(L, S)", "nobody"),
         ("occurs(E, _), argsOf(E, [_, X, S]), instance_of(X, _), S \\= force99", "force7"),
+        ("evidence(_, _, N, _), unit(N, U), U \\== '', S = N", "force"),
         # Known as one of two kinds is known.
         ("holds(broken(S), _), unit(U, _), (U = S ; U = mass), S = egg1", "egg1"),
         ("findall(X, holds(broken(X), _), L), atomic_list_concat(L, ', ', Text), Text \\= nothing, S = Text", "egg1"),

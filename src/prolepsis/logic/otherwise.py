@@ -51,6 +51,9 @@ def _other_way_round(timeline: Timeline, asked: Term) -> Iterator[str]:
 
 
 def _other_number(timeline: Timeline, asked: Term) -> Iterator[str]:
+    if any(isinstance(each, int | float) for each in asked.args):
+        same = [fact.term for fact in timeline.facts if _but_for_numbers(fact.term) == _but_for_numbers(asked)]
+        yield from (f"{brief(format_value(each))} is so" for each in same if each != asked)
     match asked:
         case Term(functor="value", args=(str(thing), str(name), int() | float() as given)):
             numbers = [value for of, its, value in timeline.domain.values if (of, its) == (thing, name)]
@@ -63,6 +66,12 @@ def _other_number(timeline: Timeline, asked: Term) -> Iterator[str]:
         if isinstance(number, int | float) and _meant(given, number):
             of_unit = f" {unit}" if unit not in ("", "1") else ""
             yield f"{format_atom(name)} of {brief(format_value(thing))} is {number:.6g}{of_unit}"
+
+
+def _but_for_numbers(value: Value) -> Value:
+    if isinstance(value, Term) and value.functor not in ("value", "evidence"):
+        return Term(value.functor, tuple("" if isinstance(each, int | float) else each for each in value.args))
+    return value
 
 
 def _meant(given: float, number: float) -> bool:

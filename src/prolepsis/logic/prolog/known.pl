@@ -79,7 +79,6 @@ known(name(Kind), Name) :-
     !.
 known(unit, Name) :-
     ( property(_, Name) ; evidence_unit(_, Name) ; known_run(_, Run), Run:unit(_, Name) ),
-    Name \== '',
     !.
 known(individual, Name) :-
     known_run(_, Run),
