@@ -66,6 +66,8 @@ def session() -> Iterator[Session]:
         ("occurs(broken(X), T)", r"^broken is a fluent, no event; ask holds\(broken\(X\), T\)$"),
         ("occurs(faling(X), T)", r"no event faling/1; did you mean falling\(X\)"),
         ("occurs(xyzzy(X), T)", "^no event xyzzy/1; known: absorbing"),
+        ("holds(broken(egg-1), T)", "no individual named egg-1"),
+        ("holds(broken(f(X)), T)", r"no individual named f\(_\)"),
         ("occurs(dropped(X), T)", r"^no event dropped/1; did you mean dropping\(X, Y\)\?$"),
         ('holds("broken(egg1)", T)', r"a fact is a term and no text: write broken\(egg1\)$"),
         ("holds('broken(egg1)', T)", r"a fact is a term and no text: write broken\(egg1\)$"),

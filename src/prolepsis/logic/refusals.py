@@ -8,7 +8,7 @@ import re
 from prolepsis.log.timeline import Timeline
 from prolepsis.logic.process import STACK_LIMIT
 from prolepsis.logic.syntax import INSTEAD, syntax_error
-from prolepsis.logic.unknown_names import OTHERWISE, a_kind, unknown_name
+from prolepsis.logic.unknown_names import OTHERWISE, a_kind, nearest, unknown_name
 from prolepsis.terms.errors import GoalError, GoalLimitError, brief
 
 PERMITTED = (
@@ -32,6 +32,8 @@ OTHER_WORDS = {
     "precedes": "before(I, J)",
     "follows": "after(I, J)",
     "duration": "holds(Fluent, S-E), D is E-S",
+    "start": "holds(Fluent, S-E), where S is the start",
+    "end": "holds(Fluent, S-E), where E is the end",
     "object": "objOf(FluentOrEvent, Object)",
 }
 """What is asked otherwise here than elsewhere."""
@@ -126,7 +128,8 @@ def _nearest(name: str, known: list[str], timeline: Timeline) -> str:
         return "a query is one goal; rules are added as chronicles, see docs/queries.md"
     if plain == "('|')":
         return "either of two goals is asked with ;"
-    near = difflib.get_close_matches(name, known, n=1, cutoff=0.75)
+    near = nearest(name, [each for each in known if each.rpartition("/")[2] == name.rpartition("/")[2]])
+    near = near or difflib.get_close_matches(name, known, n=1, cutoff=0.75)
     if near:
         return f"did you mean {near[0]}?"
     alike = difflib.get_close_matches(plain, list(types), n=1, cutoff=0.75)

@@ -13,6 +13,7 @@
             known_names/2,              % +Kind, -Names
             candidate/2,                % +Kind, -Name
             fact_kind/1,                % ?Kind
+            made_by_rule/2,             % ?Name, ?Arity
             declare_event/1             % +Event
           ]).
 :- use_module(library(lists)).
@@ -186,6 +187,13 @@ individual(Run, Name) :-
     compound(Term),
     arg(_, Term, Name).
 individual(Run, Name) :- Run:proof(_, Of, Name), \+ allowed_value(Of, _).
+
+%!  made_by_rule(?Name, ?Arity) is nondet.
+%
+%   True if an event of that Name is what a rule of a user's finds: its arguments may be any terms.
+
+made_by_rule(Name, Arity) :-
+    declared_event(Name, Arity).
 
 %!  declare_event(+Event) is det.
 %

@@ -161,13 +161,18 @@ check_value(Of, Value) :-
 unknown(Kind, Term) :-
     throw(refused(unknown_name(Kind, Term))).
 
-%   The arguments of a fact are individuals, numbers, or what a rule makes of them.
+%   The arguments of a fact are individuals, numbers and lists of them, or what a rule makes of them.
 
 check_individuals(0, _) :- !.
 check_individuals(N, Term) :-
     arg(N, Term, Argument),
     (   ( atom(Argument) ; string(Argument) )
     ->  check_name(individual, Argument)
+    ;   compound(Argument),
+        Argument \= [_|_],
+        functor(Term, Name, Arity),
+        \+ made_by_rule(Name, Arity)
+    ->  unknown(individual, Argument)
     ;   true
     ),
     Rest is N-1,
