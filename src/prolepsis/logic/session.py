@@ -32,9 +32,9 @@ from prolepsis.terms.errors import GoalError, GoalLimitError, InputError, Note, 
 from prolepsis.terms.reader import parse_term
 from prolepsis.terms.terms import Value, format_atom, format_value
 
-LATE = 1.0
+LATE = 2.0
 """Time beyond its limit after which a query that does not even stop is ended with its process [s]: no limit interrupts
-one step of arithmetic, as `3**200000000` is."""
+one step of arithmetic, as `3**1000000000` is. A busy machine tells a second late that a limit was reached."""
 GRACE = 5.0
 """The same of what is no query [s]."""
 LOAD_LIMIT = 600.0
