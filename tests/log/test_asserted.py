@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from prolepsis.log.domain import Domain
@@ -25,7 +27,7 @@ def timeline(relation: tuple[str, str, str], *facts: Fact) -> Timeline:
     ("relation", "facts", "end"),
     [
         pytest.param(ON, (TABLE,), 1.0, id="as long as it is seen"),
-        pytest.param(ON, (TABLE, AGAIN), 1.0, id="not again after it had ended"),
+        pytest.param(ON, (TABLE, AGAIN), 1.0, id="until it is lifted"),
         pytest.param(ON, (), 3.0, id="to the end when nothing is seen"),
         pytest.param(ON, (FALL, FLOOR), 0.4, id="until a fall"),
         pytest.param(ON, (FLOOR,), 0.6, id="until something else bears it"),
@@ -41,10 +43,31 @@ def test_it_ends_when_the_log_shows_otherwise(
 ) -> None:
     asserted = timeline(relation, *facts)
     term = f"{relation[0]}({relation[1]}, {relation[2]})"
-    assert asserted.ask(f"holds({term}, T), T = S-E") == asserted.ask(f"T = 0.0-{end}, T = S-E")
+    assert asserted.ask(f"holds({term}, 0.0-E)") == [{"E": end}]
     assert asserted.ask(f"aggregate_all(count, holds({term}, 0.0), N)") == [{"N": 1}]
     assert asserted.ask(f"holds({term}, {end - 0.001})")
     assert not asserted.ask(f"holds({term}, {end})")
+
+
+@pytest.mark.parametrize("first", [(TABLE,), (FALL,), (FLOOR,)])
+def test_what_is_set_down_again_is_on_it_again(first: tuple[Fact, ...]) -> None:
+    asked = timeline(ON, *first, AGAIN)
+    assert asked.ask("holds(on(egg1, table1), 2.5)")
+    assert not asked.ask("holds(on(egg1, table1), 1.5)")
+    assert asked.ask("holds(on(egg1, table1), 2.0-3.0)")
+
+
+def test_on_is_supports_the_other_way_round_of_all_that_is_borne() -> None:
+    others = (
+        replace(TABLE, args=("table1", "cup1"), evidence={"share": 1.0}),
+        replace(AGAIN, args=("cup1", "egg1"), evidence={"share": 0.4}),
+    )
+    asked = timeline(ON, TABLE, *others)
+    borne = "findall(on(X, Y)-T, holds(supports(Y, X), T), L)"
+    assert asked.ask(borne) == asked.ask("findall(on(X, Y)-T, holds(on(X, Y), T), L)")
+    assert asked.ask("evidence(on(egg1, cup1), T, share, S)") == asked.ask("T = 2.0-3.0, S = 0.4")
+    # Of a log of which no situation speaks, nothing is on anything.
+    assert not make_timeline(others, dt=0.001, duration=3.0).ask("holds(F, T), fluentT(F, on)")
 
 
 def test_it_is_found_as_any_fluent_is() -> None:
