@@ -94,6 +94,54 @@ def test_a_fall_begins_when_the_last_of_two_supports_is_lost() -> None:
     assert start == 0.3
 
 
+def falling_box(*paths: tuple[float, float, float], contact: float = 0.003) -> Draft:
+    """Return a box that goes down, and that something slows for a moment before each path but the first.
+
+    Each path is its speed at the beginning [m/s, upward] and its length [s], and the acceleration meanwhile [m/s^2].
+    """
+    draft = Draft(600, [floor(), solid_box("pier1"), solid_box("box1")])
+    speeds: list[float] = []
+    for number, (speed, time, acceleration) in enumerate(paths):
+        if number:
+            draft.rest("floor", "box1", 100 + len(speeds), 100 + len(speeds) + round(contact * 1000), 500.0)
+            speeds += np.linspace(speeds[-1], speed, round(contact * 1000)).tolist()
+        speeds += [speed + acceleration * k * 0.001 for k in range(round(time * 1000))]
+    z = np.cumsum(speeds) * 0.001
+    draft.poses[101 : 101 + len(z), 2, 2] += z
+    draft.poses[101 + len(z) :, 2, 2] += z[-1]
+    draft.rest("floor", "box1", 100 + len(z), 600, 9.81)
+    return draft
+
+
+@pytest.mark.parametrize(
+    ("rebound", "falls"),
+    [(0.08, 2), (-0.2, 1)],
+    ids=["what rebounds for a moment falls anew from its apex", "what is only slowed falls on"],
+)
+def test_a_bounce_ends_a_fall_and_a_brush_does_not(rebound: float, falls: bool) -> None:
+    timeline = recognize(falling_box((0.0, 0.1, -9.81), (rebound, 0.08, -9.81)).log())
+    found = times(timeline, "falling(box1)")
+    assert len(found) == falls
+    assert found[0][0] == pytest.approx(0.1, abs=0.002)
+    if falls == 2:
+        assert found[0][1] == pytest.approx(0.2, abs=0.002)
+        assert found[1][0] == pytest.approx(0.203 + rebound / 9.81, abs=0.003)
+        assert timeline.select(type="falling")[1].evidence["height"] == pytest.approx(0.0253, abs=0.001)
+
+
+@pytest.mark.parametrize("lost", [0.101, 0.118, 0.13])
+def test_no_fall_is_less_high_than_what_decides_it(lost: float) -> None:
+    # It sinks while a support that gives way still bears a little; the fall begins when that is lost.
+    draft = falling_box((0.0, 0.036, -9.81))
+    draft.rest("pier1", "box1", 0, round(lost * 1000), 4.0)
+    timeline = recognize(draft.log())
+    margins = [float(fact.evidence["margin"]) for fact in timeline.select(type="falling")]
+    missed = [float(fact.evidence["margin"]) for fact in timeline.near_misses if fact.type == "falling"]
+    assert all(margin >= 1 for margin in margins)
+    assert all(0.8 <= margin < 1 for margin in missed)
+    assert (bool(margins), bool(missed)) == (lost < 0.11, 0.11 < lost < 0.12)
+
+
 @pytest.mark.parametrize(("depth", "supports"), [(0.0, True), (0.05, False)])
 def test_a_fixed_thing_bears_what_stands_on_it_and_not_what_is_sunk_into_it(depth: float, supports: bool) -> None:
     base = replace(solid_box("base1", half=0.1, z=0.1), mount=FIXED)

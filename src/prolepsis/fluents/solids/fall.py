@@ -6,8 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from prolepsis.fluents.intervals import close_gaps, hysteresis, mask_of, ticks_of, union
+from prolepsis.fluents.intervals import hysteresis, mask_of, ticks_of, union
 from prolepsis.fluents.kinematics import climb_accelerations, climb_speeds, heights
+from prolepsis.fluents.margins import NearMiss
 from prolepsis.fluents.observation import Observation, is_loose
 from prolepsis.fluents.registry import event
 from prolepsis.fluents.solids.attachment import attachment_runs, joint_runs
@@ -15,7 +16,7 @@ from prolepsis.fluents.solids.contact import is_stuff
 from prolepsis.fluents.solids.support import supporters
 from prolepsis.fluents.solids.touch import touches
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
-from prolepsis.log.near import MARGIN
+from prolepsis.log.near import MARGIN, NEAR
 from prolepsis.log.timeline import Fact
 
 FREE_FALL = 0.9
@@ -30,32 +31,45 @@ BRAKED = 0.5
 FALLING_HEIGHT = 0.005
 """Least height of a fall [m]: a thing that hops or settles does not fall."""
 BRUSH = 0.03
-"""Contact during a fall that does not end it [s]."""
+"""Contact during a fall that does not end it [s], if it goes down all the while: what rebounds has landed."""
 SAME_MOMENT = 0.03
 """A fall begins when the last hold or support is lost, if that is within this time [s]."""
 
 
 @event("falling", "o")
-def falling(observation: Observation) -> Iterator[Fact]:
-    """Nothing bears the thing and it goes down freely, from the loss of its support until it lands."""
-    height, climb = observation.of(heights), observation.of(climb_speeds)
-    for unit, stretches in observation.of(falling_runs).items():
+def falling(observation: Observation) -> Iterator[Fact | NearMiss]:
+    """Nothing bears the thing and it goes down freely, from the loss of its support until it lands or rebounds."""
+    climb = observation.of(climb_speeds)
+    for unit, stretches in observation.of(ways_down).items():
         if is_stuff(observation, unit):
             continue
-        for start, end in stretches:
-            landed = min(int(end), observation.tick_count - 1)
-            fallen = float(height[unit, start] - height[unit, landed])
-            speed = float(-climb[unit, start:end].min())
-            evidence = {"height": fallen, "speed": speed, MARGIN: fallen / FALLING_HEIGHT}
-            yield observation.fact("event", "falling", (observation.unit_names[unit],), (start, end), evidence)
+        fallen = _fallen(observation, unit, stretches)
+        for (start, end), height in zip(stretches.tolist(), fallen.tolist(), strict=True):
+            what = "event", "falling", (observation.unit_names[unit],), (start, end)
+            margin = height / FALLING_HEIGHT
+            if margin >= 1:
+                speed = float(-climb[unit, start:end].min())
+                yield observation.fact(*what, {"height": height, "speed": speed, MARGIN: margin})
+            elif margin >= 1 - NEAR:
+                yield NearMiss(fact=observation.fact(*what, {MARGIN: margin}))
 
 
 def falling_runs(observation: Observation) -> dict[int, IntArray]:
     """Return when each unit falls, parts of stuffs included."""
+    found: dict[int, IntArray] = {}
+    for unit, stretches in observation.of(ways_down).items():
+        high = stretches[_fallen(observation, unit, stretches) >= FALLING_HEIGHT]
+        if len(high):
+            found[unit] = high
+    return found
+
+
+def ways_down(observation: Observation) -> dict[int, IntArray]:
+    """Return when each unit goes down freely, by however little, parts of stuffs included."""
     steepest = np.minimum(*climb_accelerations(observation, FALL_WINDOW)) / max(observation.gravity, 1e-9)
-    sinking = (steepest <= -GIVING_WAY) & (observation.of(climb_speeds) < 0)
+    climb = observation.of(climb_speeds)
+    sinking = (steepest <= -GIVING_WAY) & (climb < 0)
     lifts = observation.of(lifting_forces)
-    height = observation.of(heights)
     found: dict[int, IntArray] = {}
     for unit in observation.units:
         if not is_loose(observation, unit) or not (sinking[unit] & (steepest[unit] <= -FREE_FALL)).any():
@@ -63,13 +77,27 @@ def falling_runs(observation: Observation) -> dict[int, IntArray]:
         mask = sinking[unit] & observation.exists(unit) & ~_held(observation, unit)
         if unit in lifts:
             mask &= lifts[unit] < BRAKED * observation.mass(unit) * observation.gravity
-        gap = ticks_of(BRUSH, observation.dt)
-        stretches = close_gaps(hysteresis(mask, steepest[unit] <= -FREE_FALL), gap)
-        landed = np.minimum(stretches[:, 1], observation.tick_count - 1)
-        stretches = stretches[height[unit, stretches[:, 0]] - height[unit, landed] >= FALLING_HEIGHT]
+        stretches = _brushing(hysteresis(mask, steepest[unit] <= -FREE_FALL), climb[unit], observation.dt)
         if len(stretches):
             found[unit] = _from_loss(observation, unit, stretches)
     return found
+
+
+def _brushing(stretches: IntArray, climb: FloatArray, dt: float) -> IntArray:
+    """Return the stretches, those as one between which it only brushes something on its way down."""
+    joined: list[list[int]] = []
+    for start, end in stretches.tolist():
+        if joined and start - joined[-1][1] <= ticks_of(BRUSH, dt) and (climb[joined[-1][1] : start] < 0).all():
+            joined[-1][1] = end
+        else:
+            joined.append([start, end])
+    return np.array(joined, dtype=np.int64).reshape(-1, 2)
+
+
+def _fallen(observation: Observation, unit: int, stretches: IntArray) -> FloatArray:
+    """Return by how much a unit goes down in each of the stretches [m]."""
+    height = observation.of(heights)[unit]
+    return height[stretches[:, 0]] - height[np.minimum(stretches[:, 1], observation.tick_count - 1)]
 
 
 def lifting_forces(observation: Observation) -> dict[int, FloatArray]:
