@@ -135,6 +135,53 @@ def test_what_is_pushed_over_the_edge_of_a_table_tips_about_it_and_falls_from_th
     assert times(timeline, "falling(box)")[0][0] == pytest.approx(left, abs=0.01)
 
 
+@pytest.mark.parametrize(
+    ("what", "geom", "where", "velocity"),
+    [
+        ("a ball rolls up to the edge", '<geom type="sphere" size=".03" mass=".1"/>', ".14 0 .43", (0.4, 0, 0, 0, 13)),
+        ("it slips first", '<geom type="sphere" size=".03" mass=".1"/>', ".14 0 .43", (0.4,)),
+        ("an egg", '<geom type="ellipsoid" size=".022 .0285 .022" mass=".058"/>', ".15 0 .4221", (0.1, 0, 0, 0, 4.5)),
+    ],
+)
+def test_what_rolls_over_the_edge_of_a_table_falls_and_did_not_tip(
+    what: str, geom: str, where: str, velocity: tuple[float, ...]
+) -> None:
+    timeline = watch(world(FLOOR + TABLE + free("a", where, geom)), 1.5, thrown(*velocity))
+    assert of_type(timeline, "falling"), what
+    assert not of_type(timeline, "tipping", "toppling"), what
+    assert not [fact for fact in timeline.near_misses if fact.type == "toppling"], what
+
+
+def test_a_rod_that_rolls_askew_over_the_edge_did_not_tip() -> None:
+    # It is borne at one end, so that what bears it moves far less than its middle is away from there.
+    def push(model: Any, data: Any) -> None:
+        data.mocap_pos[0, 0] = min(0.031 + 0.24 * data.time, 0.166)
+
+    rod = free("rod", ".131 0 .4102", '<geom type="capsule" size=".01 .06" euler="0 90 0" mass=".1"/>', "0 0 49")
+    timeline = watch(world(FLOOR + TABLE + rod + finger(0.417, 0.031)), 1.5, push)
+    assert of_type(timeline, "falling") == {"falling(rod)"}
+    assert not of_type(timeline, "tipping", "toppling")
+
+
+@pytest.mark.parametrize("degrees", [0, 30, 60, 90])
+@pytest.mark.parametrize("size", [".022 .0285 .022", ".0285 .022 .022"])
+def test_an_egg_that_a_finger_pushes_over_the_edge_is_never_back(degrees: float, size: str) -> None:
+    def push(model: Any, data: Any) -> None:
+        data.mocap_pos[0, 0] = 0.06 + 0.1 * data.time
+
+    egg = free("egg", ".17 0 .4221", f'<geom type="ellipsoid" size="{size}" mass=".058"/>', f"0 0 {degrees}")
+    timeline = watch(world(FLOOR + TABLE + egg + finger(0.43, 0.06)), 2.5, push)
+    assert times(timeline, "falling(egg)")
+    for fact in timeline.select(type="tipping"):
+        assert fact.evidence["result"] == "over"
+        assert times(timeline, "toppling(egg)")[0][1] == pytest.approx(times(timeline, "falling(egg)")[0][0], abs=0.02)
+
+
+def test_what_goes_over_tells_how_far_beyond_its_balance_it_came() -> None:
+    timeline = watch(world(FLOOR + BOX + finger(0.18, -0.05)), 5.0, pushing(1.1))
+    assert the(timeline, "toppling(box)")["margin"] == pytest.approx(math.pi / 2 / BALANCE, rel=0.05)
+
+
 def test_what_is_set_down_too_far_out_tips_off_at_once() -> None:
     bricks = box("low", "0 0 .02", ".02 .02 .02", 0.1) + box("top", ".025 0 .0601", ".02 .02 .02", 0.1)
     timeline = watch(world(FLOOR + bricks), 1.0)

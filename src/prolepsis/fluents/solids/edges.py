@@ -78,7 +78,10 @@ class Standing:
         # Along the edge it may move: a corner of it is borne first.
         moved -= np.einsum("tc,tc->t", moved, axis)[:, None] * axis
         least = np.minimum(_norms(moved), _norms(_change(self.point_below, before, after)))
-        return least < ROLLING * _norms(self.centre - self.point) * size
+        # Of what is long and borne at one end, only the distance of its middle from the axis counts.
+        arm = self.centre - self.point
+        arm -= np.einsum("tc,tc->t", arm, axis)[:, None] * axis
+        return least < ROLLING * _norms(arm) * size
 
 
 def standings(observation: Observation, unit: int) -> Iterator[Standing]:

@@ -44,7 +44,9 @@ FACES = 2.5
 """What turns by more than so many times the angle between two of its faces rolls [1]: a hexagonal pencil, but no
 brick."""
 OUTER = 0.2
-"""Corners that are nearer to the edge, as a share of the furthest [1], do not tell how its face lies."""
+"""Corners that are nearer to the edge, as a share of the furthest [1], do not tell how its face lies ..."""
+FAR = 0.5
+"""... and some that are further than this lie in it, too [1]."""
 FURTHEST = 100.0
 """Margin of what is beyond its edge at once, as it is pushed over one [1]."""
 
@@ -65,9 +67,19 @@ class Tip:
     """That over the angle at which its centre of mass is above the edge [1], shape (T,)."""
 
     @property
+    def greatest(self) -> float:
+        """The greatest angle [rad]."""
+        return float(self.angle[self.start : self.end].max())
+
+    @property
     def margin(self) -> float:
-        """The greatest share [1]."""
-        return float(self.share[self.start : self.end].max())
+        """The greatest share [1]; of what goes over, its greatest angle over that at which it does."""
+        share, angle = self.share[self.start : self.end], self.angle[self.start : self.end]
+        if share.max() < 1:
+            return float(share.max())
+        # Of what is round, or is pushed on, the point at which it is borne moves, and with it the angle of balance.
+        passes = float(angle[int(np.argmax(share >= 1))] / share[share >= 1][0])
+        return max(1.0, self.greatest / max(passes, self.greatest / FURTHEST))
 
     @property
     def result(self) -> str:
@@ -75,11 +87,12 @@ class Tip:
         angles = self.angle[self.start : self.end]
         if self.margin >= 1 and angles[-1] > angles.max() / 2:
             return "over"
-        if angles[int(np.argmax(angles)) :].min() <= angles.max() / 2:
+        stands = bool(self.standing.touching[min(self.end, len(self.angle) - 1)])
+        if stands and angles[int(np.argmax(angles)) :].min() <= angles.max() / 2:
             return "back"
         if self.end >= len(self.angle) - 1:
             return "unfinished"
-        return "leaning" if self.standing.touching[self.end] else "off"
+        return "leaning" if stands else "off"
 
 
 @event("tipping", "o")
@@ -108,11 +121,10 @@ def toppling(observation: Observation) -> Iterator[Fact | NearMiss]:
 
 def _evidence(observation: Observation, tip: Tip) -> Evidence:
     standing = tip.standing
-    angles = tip.angle[tip.start : tip.end]
     evidence: dict[str, float | str] = {
         "edge": observation.unit_names[observation.unit[standing.below]],
         "result": tip.result,
-        "angle": float(angles.max()),
+        "angle": tip.greatest,
         MARGIN: tip.margin,
     }
     return evidence
@@ -154,16 +166,28 @@ def _tips(observation: Observation, standing: Standing) -> Iterator[Tip]:
     about = standing.about_edge(on_edge)
     several = close_gaps(runs(turning & free), ticks_of(PAUSE, dt))
     for start, end in _held_up(standing, several, free & about).tolist():
-        if not _stood(slow & ~turning, start, dt):
-            continue
-        edges = start + np.flatnonzero(on_edge[start:end])
-        if not len(edges):
-            continue
-        first, last = int(edges[0]), int(edges[-1]) + 1
-        # The jolts of its setting out and of its landing belong to it, but not how it rolls on.
-        first = start if _rotation(standing, start, first) < ROLLED else first
-        last = end if _rotation(standing, last - 1, end - 1) < ROLLED else last
-        yield from _measured(observation, standing, first, last, on_edge, about)
+        for first, last in _about_one(standing, start, end, on_edge):
+            if _stood(slow & ~turning, first, dt):
+                tip = _measured(observation, standing, first, last, on_edge, about)
+                turned = float(tip.angle[start:end].max())
+                if tip.margin > 0 and tip.greatest >= LEAST_ANGLE and not _rolls(tip, turned, on_edge):
+                    yield tip
+
+
+def _about_one(standing: Standing, start: int, end: int, on_edge: BoolArray) -> Iterator[tuple[int, int]]:
+    """Yield the times within a run of turning in which it turns about an edge, without how it rolls up to it and on.
+
+    The jolts of its setting out and of its landing belong to it.
+    """
+    stretches: list[list[int]] = []
+    for first, last in (runs(on_edge[start:end]) + start).tolist():
+        if stretches and _rotation(standing, stretches[-1][1] - 1, first) < ROLLED:
+            stretches[-1][1] = last
+        else:
+            stretches.append([first, last])
+    for first, last in stretches:
+        sets_out, lands = _rotation(standing, start, first) < ROLLED, _rotation(standing, last - 1, end - 1) < ROLLED
+        yield start if sets_out else first, end if lands else last
 
 
 def _held_up(standing: Standing, several: IntArray, about: BoolArray) -> IntArray:
@@ -192,7 +216,7 @@ def _stood(still: BoolArray, start: int, dt: float) -> bool:
 
 def _measured(
     observation: Observation, standing: Standing, start: int, end: int, on_edge: BoolArray, about: BoolArray
-) -> Iterator[Tip]:
+) -> Tip:
     flat = _flat(observation, standing, start + int(np.argmax(on_edge[start:end])), end)
     angle = _angles(standing.upright, flat)
     # On which side, seen from the edge, its centre of mass was: there its face is down.
@@ -201,13 +225,11 @@ def _measured(
     inside = np.arctan2(_dots(arm, side), _dots(arm, standing.up))
     balance = np.maximum(angle + inside, angle / FURTHEST)
     share = np.where(about & standing.pressing & (angle >= LEAST_ANGLE / 2), angle / np.maximum(balance, 1e-12), 0.0)
-    tip = Tip(standing=standing, start=start, end=end, angle=angle, share=share)
-    if tip.margin > 0 and angle[start:end].max() >= LEAST_ANGLE and not _rolls(tip, on_edge):
-        yield tip
+    return Tip(standing=standing, start=start, end=end, angle=angle, share=share)
 
 
-def _rolls(tip: Tip, on_edge: BoolArray) -> bool:
-    """Return whether it does not turn about one edge, but about ever another point."""
+def _rolls(tip: Tip, turned: float, on_edge: BoolArray) -> bool:
+    """Return whether it does not turn about one edge, but, by as much as it ``turned`` [rad], about ever another."""
     during = slice(tip.start, tip.end)
     angle, upright, point = tip.angle[during], tip.standing.upright[during], tip.standing.point[during]
     high = angle >= angle.max() / 2
@@ -219,23 +241,26 @@ def _rolls(tip: Tip, on_edge: BoolArray) -> bool:
     corners = np.flatnonzero(np.linalg.norm(np.diff(point, axis=0), axis=1) > ROLLING * arm[1:]) + 1
     bounds = [0, *corners.tolist(), len(angle)]
     longest = max(float(np.ptp(angle[a:b])) for a, b in itertools.pairwise(bounds) if b > a)
-    return float(angle.max()) > FACES * longest
+    return turned > FACES * longest
 
 
 def _flat(observation: Observation, standing: Standing, start: int, end: int) -> FloatArray:
     """Return what would be up in the body if the face that is nearest to what is below lay on it, shape (3,)."""
     upright, normal = standing.upright[start], standing.normal[start]
-    furthest = start + int(np.argmax(_angles(standing.upright[start:end], upright)))
-    direction = _unit(_beside(standing.upright[furthest], upright))
+    most = start + int(np.argmax(_angles(standing.upright[start:end], upright)))
+    direction = _unit(_beside(standing.upright[most], upright))
     solids = bounded(observation.log.things[standing.unit].shape)
     corners = np.concatenate([solid.corners @ solid.rotation.T + solid.position for solid in solids])
     away = corners - standing.point[start]
     raised: list[tuple[float, FloatArray]] = []
     for side in (direction, -direction):
         ahead = away @ _unit(_beside(side, normal))
-        far = ahead > OUTER * np.linalg.norm(away, axis=1).max()
-        if far.any():
-            raised.append((float(np.arctan2((away @ normal)[far], ahead[far]).min()), side))
+        furthest = np.linalg.norm(away, axis=1).max()
+        angles = np.arctan2(away @ normal, ahead)
+        near, far = ahead > OUTER * furthest, ahead > FAR * furthest
+        # Of what is round, as an egg, the further corners lie the higher: it has no face.
+        if far.any() and angles[far].min() < angles[near].min() + LEAST_ANGLE:
+            raised.append((float(angles[near].min()), side))
     angle, side = min(raised, key=lambda each: each[0], default=(0.0, direction))
     if angle < LEAST_ANGLE / 2:
         return upright
