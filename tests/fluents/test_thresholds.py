@@ -118,7 +118,7 @@ def falling_box(*paths: tuple[float, float, float], contact: float = 0.003) -> D
     [(0.08, 2), (-0.2, 1)],
     ids=["what rebounds for a moment falls anew from its apex", "what is only slowed falls on"],
 )
-def test_a_bounce_ends_a_fall_and_a_brush_does_not(rebound: float, falls: bool) -> None:
+def test_a_bounce_ends_a_fall_and_a_brush_does_not(rebound: float, falls: int) -> None:
     timeline = recognize(falling_box((0.0, 0.1, -9.81), (rebound, 0.08, -9.81)).log())
     found = times(timeline, "falling(box1)")
     assert len(found) == falls
