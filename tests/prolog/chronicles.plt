@@ -68,6 +68,8 @@ test(lifted_by_a_joint, Done == []) :-
 test(the_table_ends_with_the_log, Done == []) :-
     done([ fluent(supports(t, e), 0.0, 3.0), fluent(attached(h, e), 0.9, 3.0), event(moving(e), 0.9, 3.0) ], Done).
 
+test(out_of_the_water, Done == [picking_up(h, e)-(0.5-2.0)]) :-
+    done([ fluent(floats(e, l), 0.0, 1.0), fluent(attached(h, e), 0.5, 3.0), event(moving(e), 0.9, 2.0) ], Done).
 test(the_hold_begins_a_moment_late, Done == [picking_up(h, e)-(1.0-2.0)]) :-
     done([ fluent(supports(t, e), 0.0, 1.0), fluent(attached(h, e), 1.04, 3.0), event(moving(e), 1.0, 2.0) ], Done).
 test(caught_in_the_air, Done == []) :-
@@ -81,6 +83,13 @@ test(lowered_and_let_go, Done == [Picked, putting_down(hand1, egg1)-(3.952-4.318
     lifted(Lifted), lowered(Lowered), append(Lifted, Lowered, Rows), picked(Picked), done(Rows, Done).
 test(the_hold_may_be_recorded_beyond_the_support, Done == [putting_down(h, e)-(2.0-2.5)]) :-
     done([ fluent(attached(h, e), 0.0, 2.5), fluent(supports(t, e), 2.0, 4.0) ], Done).
+test(put_into_water_where_it_floats, Done == [putting_down(h, e)-(2.0-2.5)]) :-
+    done([ fluent(attached(h, e), 0.0, 2.5), fluent(floats(e, l), 2.0, 4.0) ], Done).
+test(put_into_water_where_it_sinks, Done == [putting_down(h, e)-(2.0-2.5)]) :-
+    done([ fluent(attached(h, e), 0.0, 2.5), fluent(immersed(e, l), 2.0, 4.0), fluent(supports(cup, e), 2.9, 4.0) ],
+         Done).
+test(dipped_into_it_is_not, Done == []) :-
+    done([ fluent(attached(h, e), 0.0, 5.0), fluent(floats(e, l), 2.0, 2.5), event(moving(e), 1.0, 4.0) ], Done).
 test(two_supports_are_one_putting_down, Done == [putting_down(h, e)-(2.0-2.02)]) :-
     done([ fluent(attached(h, e), 0.0, 2.0), fluent(supports(b1, e), 2.0, 4.0), fluent(supports(b2, e), 2.02, 4.0),
            fluent(contacts(h, e), 0.0, 2.02) ], Done).

@@ -35,14 +35,14 @@ slack(0.05).
 
 %!  chronicle(picking_up(?Hand, ?Object), -Interval) is nondet.
 %
-%   Object loses its support while Hand holds it, nothing else takes the support over, and it moves.
-%   From the beginning of the hold until Object comes to rest or is let go. What Hand held already when
+%   Object loses its support, be it a liquid, while Hand holds it, nothing else takes the support over, and
+%   it moves. From the beginning of the hold until Object comes to rest or is let go. What Hand held already when
 %   the support began, and did not let go since, only brushed it.
 
 chronicle(picking_up(Hand, Object), Start-End) :-
     hold(Hand, Object, HoldStart, HoldEnd, _),
     slack(Slack),
-    once(( holds(supports(Support, Object), SupportStart-Lost),
+    once(( borne(Support, Object, SupportStart-Lost),
            HoldStart =< Lost+Slack,
            HoldEnd > Lost+Slack,
            Support \== Hand,
@@ -58,14 +58,14 @@ chronicle(picking_up(Hand, Object), Start-End) :-
 
 %!  chronicle(putting_down(?Hand, ?Object), -Interval) is nondet.
 %
-%   Object gains a support while Hand holds it, and still has it when Hand lets go. Another hand is no
+%   Object gains a support, be it a liquid, while Hand holds it, and still has it when Hand lets go. Another hand is no
 %   such support, nor is one that Object had to fall to. From the gain of the support until Hand no
 %   longer touches Object.
 
 chronicle(putting_down(Hand, Object), Start-End) :-
     hold(Hand, Object, HoldStart, HoldEnd, LetGo),
     slack(Slack),
-    once(( holds(supports(Support, Object), Gained-SupportEnd),
+    once(( borne(Support, Object, Gained-SupportEnd),
            Gained > HoldStart+Slack,
            Gained =< HoldEnd+Slack,
            SupportEnd > LetGo+Slack,
@@ -177,6 +177,16 @@ hold(Hand, Object, Start, End, LetGo) :-
     ->  LetGo = TouchEnd
     ;   LetGo = End
     ).
+
+%   borne(?Support, ?Object, ?Interval): Support bears Object, or is a liquid in which it is immersed or
+%   floats, and which takes over from the hand that lets go of it there.
+
+borne(Support, Object, Interval) :-
+    holds(supports(Support, Object), Interval).
+borne(Liquid, Object, Interval) :-
+    holds(immersed(Object, Liquid), Interval).
+borne(Liquid, Object, Interval) :-
+    holds(floats(Object, Liquid), Interval).
 
 %   kept(+Hand, +Object, +Start, +End): Hand held Object before Start, and did not let go until End.
 
