@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from prolepsis.fluents import recognize
 from prolepsis.fluents.margins import nearly
 from prolepsis.fluents.observation import observe
 from prolepsis.log.domain import Domain
+from prolepsis.log.happenings import Happening, film, film_area, happening_columns
 from prolepsis.log.near import is_near
 from prolepsis.log.saved import read_timeline_files, write_timeline_files
 from prolepsis.log.timeline import Fact, Timeline, make_timeline
@@ -62,6 +64,30 @@ def test_what_was_so_or_far_from_it_is_no_near_miss() -> None:
     ratio[30] = 1.5
     assert [each.fact.start for each in nearly(observation, what, ratio, none)] == [0.2]
     assert [*nearly(observation, what, np.minimum(ratio, 0.79), none)] == []
+
+
+@pytest.mark.parametrize(
+    ("spacing", "areas", "margin"),
+    [
+        pytest.param(0.005, (2.5e-5,), 1.0, id="one coarse particle"),
+        pytest.param(0.001, (1.36e-5,), 1.0, id="a drop of fine ones"),
+        pytest.param(0.005, (2.5e-5, 2.5e-3), 100.0, id="a puddle that spreads"),
+        pytest.param(0.005, (2.5e-3, 5.3e-5), 1.06, id="a puddle that is wiped off but for a fiftieth"),
+        pytest.param(0.005, (2.5e-3, 2.5e-4), 5.0, id="a puddle that is wiped off but for a tenth"),
+    ],
+)
+def test_a_film_is_near_its_threshold_when_a_drop_made_it_or_is_left_of_it(
+    spacing: float, areas: tuple[float, ...], margin: float
+) -> None:
+    log = run(BLOCK.format(0.05), duration=0.3)
+    floor, wetted = log.index("floor"), log.index("block1")
+    rows: list[tuple[int, Happening]] = [(10, film(wetted, floor, wet=True))]
+    rows += [(10 + 50 * k, film_area(wetted, area)) for k, area in enumerate(areas)]
+    log = replace(log, happenings=happening_columns(rows), particles=replace(log.particles, spacing=spacing))
+    facts = [fact for fact in recognize(log).facts if fact.type in ("wet", "dirty")]
+    assert [(fact.type, fact.start) for fact in facts] == [("dirty", 0.01), ("wet", 0.01)]
+    for fact in facts:
+        assert fact.evidence["margin"] == pytest.approx(margin, rel=0.01)
 
 
 def sample() -> Timeline:

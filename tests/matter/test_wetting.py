@@ -8,9 +8,10 @@ from tests.scenes import run, scene, started
 from prolepsis.engine.state import State
 from prolepsis.engine.world import compile_world
 from prolepsis.fluents import recognize
+from prolepsis.log.happenings import DROP
 from prolepsis.log.log import FREE
 from prolepsis.log.timeline import Timeline
-from prolepsis.matter.films.wetting import DROP, LOOK_TICKS, Wetting
+from prolepsis.matter.films.wetting import LOOK_TICKS, Wetting
 
 PUDDLE = ":floor a :Floor . :table1 a :Table . :liq1 a :Water ; :on :table1 ; :volume 0.0000005 . "
 OVER_IT = ":sponge1 a :Sponge ; :length 0.06 ; :width 0.06 ; :height 0.02 ; :z 0.713 . "

@@ -28,6 +28,11 @@ DETACHMENT = HappeningType(name="detachment", things=("thing", "a", "b"), number
 FILM = HappeningType(name="film", things=("thing", "stuff"), numbers=("wet",))
 """The surface of a thing becomes wet with a stuff (1), or dry again (0), which names the thing twice."""
 
+DROP = 5.0e-8
+"""Least volume that makes a film when it touches a surface at once [m^3]: a drop of water, twenty to the millilitre."""
+FILM_LEFT = 0.02
+"""Share of the greatest area of a film [1] that is left when the surface counts as dry."""
+
 FILM_AREA = HappeningType(name="film_area", things=("thing",), numbers=("area",))
 """The film on the surface of a thing has another area from now on [m^2]."""
 

@@ -10,8 +10,9 @@ from prolepsis.fluents.intervals import runs
 from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.registry import fluent
 from prolepsis.geometry.shape import BoolArray, FloatArray
-from prolepsis.log.happenings import FILM, FILM_AREA
-from prolepsis.log.timeline import Evidence, Fact
+from prolepsis.log.happenings import DROP, FILM, FILM_AREA, FILM_LEFT
+from prolepsis.log.near import MARGIN
+from prolepsis.log.timeline import Fact
 
 
 @fluent("wet", "o")
@@ -37,12 +38,25 @@ def _filmed(observation: Observation, attribute: str) -> Iterator[Fact]:
         mask, stuffs = films.get(unit, (np.zeros(observation.tick_count, dtype=np.bool_), ()))
         known = unit in told or not told.isdisjoint(observation.bodies(unit))
         mask = (mask | known) & observation.exists(unit)
-        evidence: Evidence = {"source": "told"} if known else {"by": " and ".join(dict.fromkeys(stuffs))}
+        evidence: dict[str, float | str] = {"source": "told"} if known else {"by": " and ".join(dict.fromkeys(stuffs))}
         area = observation.of(areas_of_units).get(unit)
         for start, end in runs(mask):
             if area is not None and area[start:end].any():
                 evidence = {**evidence, "area": float(area[start:end].max()), "area_at_end": float(area[end - 1])}
+                if not known:
+                    evidence[MARGIN] = _margin(observation, area[start:end], end)
             yield observation.fact("fluent", attribute, (observation.unit_names[unit],), (start, end), evidence)
+
+
+def _margin(observation: Observation, area: FloatArray, end: int) -> float:
+    """Return the greatest area of a film over the least that makes a surface wet [1].
+
+    While it is being wiped off, it is the lesser of that and what is left over what counts as dry.
+    """
+    least = max(DROP ** (2 / 3), observation.log.particles.spacing**2)
+    margin = float(area.max()) / least
+    wiped = end == observation.tick_count and area[-1] < area.max()
+    return min(margin, float(area[-1] / area.max()) / FILM_LEFT) if wiped else margin
 
 
 def films_of_units(observation: Observation) -> dict[int, tuple[BoolArray, tuple[str, ...]]]:

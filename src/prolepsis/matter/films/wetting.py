@@ -12,7 +12,7 @@ import numpy as np
 
 from prolepsis.geometry.rotations import matrix
 from prolepsis.geometry.shape import FloatArray, IntArray
-from prolepsis.log.happenings import film, film_area
+from prolepsis.log.happenings import DROP, FILM_LEFT, film, film_area
 from prolepsis.log.things import friction_of
 from prolepsis.scene.kind import Controller
 from prolepsis.scene.nearby import distance_to, solids_of, touching, unobstructed
@@ -24,10 +24,6 @@ SELDOM = 4
 """Of surfaces that nothing can dry, so many looks are left out but for one: their films only grow."""
 TOUCH_REACH = 0.75
 """Distance of a particle's centre from a surface that it wets [spacings]; at rest on it, it is a half."""
-DROP = 5.0e-8
-"""Least volume that wets a surface when it touches it at once [m^3]: a drop of water, twenty to the millilitre."""
-NOTICEABLE = 0.02
-"""Share of the greatest area of a film [1] that is left when the surface counts as dry."""
 _BITS = 21
 """Bits of a cell's number along an axis."""
 _HALF = 1 << (_BITS - 1)
@@ -88,7 +84,7 @@ class Wetting(Controller):
             left &= distance_to(state, absorbent, world) > (TOUCH_REACH + 0.5) * spacing
         self._wet[index] = np.union1d(cells[left], self._cells(state, index, spacing, positions))
         self._most[index] = max(self._most[index], len(self._wet[index]))
-        if not keeps and not len(positions) and len(self._wet[index]) <= NOTICEABLE * self._most[index]:
+        if not keeps and not len(positions) and len(self._wet[index]) <= FILM_LEFT * self._most[index]:
             self._dry(state, index)
 
     def _cells(self, state: Running, index: int, spacing: float, positions: FloatArray) -> IntArray:
