@@ -55,17 +55,17 @@ class Impacts:
         self.restitution, self.speed, self.exponent, self.modulus = table.T
         self.usual = usual_solids(state)
 
-    def step(self, model: Any, data: Any, softening: Softening, *, hits: bool) -> None:
-        """Make one substep, in which things may hit each other or slide if ``hits``."""
+    def step(self, model: Any, data: Any, softening: Softening, *, hits: bool) -> bool:
+        """Make one substep, in which things may hit each other or slide if ``hits``; return whether some do hit."""
         mujoco.mj_step1(model, data)
         if softening.any_pieces:
             softening.soften(model, data)
-        if hits and data.ncon:
-            self._meet(model, data)
+        hit = bool(hits and data.ncon) and self._meet(model, data)
         mujoco.mj_step2(model, data)
+        return hit
 
-    def _meet(self, model: Any, data: Any) -> None:
-        """Let what hits rebound, and what slides stay down."""
+    def _meet(self, model: Any, data: Any) -> bool:
+        """Let what hits rebound, and what slides stay down; return whether something hits."""
         contact, velocity = data.contact, data.efc_vel
         address, pair = contact.efc_address, contact.geom
         chosen = np.flatnonzero((address >= 0) & self.usual[pair[:, 0]] & self.usual[pair[:, 1]])
@@ -85,6 +85,7 @@ class Impacts:
         elif slides.any():
             some = row[slides]
             sought[some] -= contact.friction[chosen[slides], 0] * data.efc_KBIP[some, 1] * slip[slides]
+        return bool(hits.any())
 
     def _rebound(self, pair: IntArray, speed: FloatArray) -> FloatArray:
         """Return the restitution of pairs of solids, shape (C, 2), as of two springs in series [1], shape (C,).

@@ -154,17 +154,23 @@ def simulate(
         model, data = state.model, state.data
         model.opt.timestep = TICK / count
         together = 1 if needed < max_step or [each for each in looking if not each.is_steady()] else count
-        for _ in range(count // together):
+        left = count
+        while left:
             # Physics step.
+            made, hit = together, False
             if fast or state.softening.any_pieces:
-                for _ in range(together):
-                    impacts.step(model, data, state.softening, hits=fast)
+                made = 0
+                # A blow is over within a substep, and recorded by itself.
+                while made < together and left > made and not hit:
+                    hit = impacts.step(model, data, state.softening, hits=fast)
+                    made += 1
             else:
                 mujoco.mj_step(model, data, together)
+            left -= made
             velocity = data.qvel * approaching.lever
             if not velocity.dot(velocity) <= MAX_SPEED**2 * model.nv:
                 _refuse(state, tick)
-            recorder.substep(state, tick, TICK * together / count, blows=needed < max_step)
+            recorder.substep(state, tick, TICK * (1 if hit else made) / count, blows=needed < max_step)
             # Matter, in its one order.
             for acting in working:
                 acting.act(state)
