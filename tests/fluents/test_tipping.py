@@ -182,6 +182,21 @@ def test_what_goes_over_tells_how_far_beyond_its_balance_it_came() -> None:
     assert the(timeline, "toppling(box)")["margin"] == pytest.approx(math.pi / 2 / BALANCE, rel=0.05)
 
 
+def test_what_has_come_to_lie_on_something_else_has_tipped_whatever_shakes_it_there() -> None:
+    log = '<body name="log" pos="0 0 .04"><geom type="box" size=".02 .1 .04"/></body>'
+
+    def shake(model: Any, data: Any) -> None:
+        if any(abs(data.time - time) < 1e-9 for time in (0.8, 1.0, 1.2)):
+            data.qvel[4] = -0.4
+
+    plank = box("plank", ".05 0 .0875", ".3 .05 .0075", 0.5)
+    timeline = watch(world(FLOOR + log + plank), 1.6, shake)
+    first, *_ = timeline.select(type="toppling")
+    assert "supports(floor,plank)" in {str(fact.term) for fact in timeline.select(type="supports")}
+    assert first.evidence["edge"] == "log"
+    assert first.end < 0.8
+
+
 def test_what_is_set_down_too_far_out_tips_off_at_once() -> None:
     bricks = box("low", "0 0 .02", ".02 .02 .02", 0.1) + box("top", ".025 0 .0601", ".02 .02 .02", 0.1)
     timeline = watch(world(FLOOR + bricks), 1.0)

@@ -31,7 +31,9 @@ BRAKED = 0.5
 FALLING_HEIGHT = 0.005
 """Least height of a fall [m]: a thing that hops or settles does not fall."""
 BRUSH = 0.03
-"""Contact during a fall that does not end it [s], if it goes down all the while: what rebounds has landed."""
+"""Contact during a fall that does not end it [s] ..."""
+KEPT = 0.5
+"""... if it goes on down by this share of its speed [1] all the while: what rebounds or is stopped has landed."""
 SAME_MOMENT = 0.03
 """A fall begins when the last hold or support is lost, if that is within this time [s]."""
 
@@ -87,7 +89,8 @@ def _brushing(stretches: IntArray, climb: FloatArray, dt: float) -> IntArray:
     """Return the stretches, those as one between which it only brushes something on its way down."""
     joined: list[list[int]] = []
     for start, end in stretches.tolist():
-        if joined and start - joined[-1][1] <= ticks_of(BRUSH, dt) and (climb[joined[-1][1] : start] < 0).all():
+        last = joined[-1][1] if joined else -1
+        if joined and start - last <= ticks_of(BRUSH, dt) and (climb[last:start] <= KEPT * climb[last - 1]).all():
             joined[-1][1] = end
         else:
             joined.append([start, end])

@@ -17,6 +17,7 @@ from prolepsis.fluents.solids.attachment import attachment_runs
 from prolepsis.fluents.solids.burden import laden_centre
 from prolepsis.fluents.solids.contact import is_stuff
 from prolepsis.fluents.solids.edges import ROLLING, Standing, standings
+from prolepsis.fluents.solids.support import supporters
 from prolepsis.geometry.rotations import rotate_back
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.geometry.solids import bounded
@@ -156,7 +157,7 @@ def _apart(several: list[Tip]) -> list[Tip]:
 
 
 def _tips(observation: Observation, standing: Standing) -> Iterator[Tip]:
-    dt, count = observation.dt, observation.tick_count
+    dt, count, base = observation.dt, observation.tick_count, int(observation.unit[standing.below])
     held = [stretches for (_, unit), stretches in observation.of(attachment_runs).items() if unit == standing.unit]
     free = standing.touching & observation.exists(standing.unit) & ~mask_of(union(held), count)
     step = np.linalg.norm(np.diff(standing.upright, axis=0, append=standing.upright[-1:]), axis=1)
@@ -165,7 +166,10 @@ def _tips(observation: Observation, standing: Standing) -> Iterator[Tip]:
     on_edge = standing.on_edge(dt)
     about = standing.about_edge(on_edge)
     several = close_gaps(runs(turning & free), ticks_of(PAUSE, dt))
-    for start, end in _held_up(standing, several, free & about).tolist():
+    # What has come to lie on something else has fallen over.
+    others = [stretches for below, stretches in observation.of(supporters).get(standing.unit, []) if below != base]
+    alone = ~mask_of(union(others), count)
+    for start, end in _held_up(standing, several, free & about & alone).tolist():
         for first, last in _about_one(standing, start, end, on_edge):
             if _stood(slow & ~turning, first, dt):
                 tip = _measured(observation, standing, first, last, on_edge, about)
