@@ -27,3 +27,13 @@ def test_a_landing_on_a_slope_is_the_same_at_every_substep(degrees: float, gap: 
     for speed, impulse in met:
         assert speed == pytest.approx(least, rel=0.15)
         assert (speed, impulse) == pytest.approx(met[-1], rel=0.15)
+
+
+@pytest.mark.parametrize("height", [0.05, 0.1, 0.2, 0.4])
+def test_what_still_bounces_is_not_supported_yet(height: float) -> None:
+    timeline = recognize(run(FLOOR + f":ball1 a :Ball ; :z {0.03 + height!r} .", duration=1.5))
+    (support,) = (fact for fact in timeline.select(type="supports") if fact.args == ("floor", "ball1"))
+    touching = [(fact.start, fact.end) for fact in timeline.select(type="contacts")]
+    assert support.end == timeline.duration
+    assert any(start <= support.start and end - start > 0.03 for start, end in touching if end > support.start)
+    assert all(end <= support.start for start, end in touching if end - start < 0.03)

@@ -160,7 +160,8 @@ Body = tuple[FloatArray, tuple[Solid, ...]]
 def _bodies(observation: Observation, things: IntArray, tick: int) -> Iterator[Body]:
     for thing in map(int, things):
         solids = tuple(solid_of(geom) for geom in observation.log.things[thing].shape.geoms)
-        yield observation.log.poses[tick, thing], solids
+        if solids:  # Of what has an outline alone it is not looked for.
+            yield observation.log.poses[tick, thing], solids
 
 
 def _overhang(point: FloatArray, normal: FloatArray, bodies: list[Body]) -> float:

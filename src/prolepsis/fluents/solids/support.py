@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from prolepsis.fluents.intervals import debounce, mask_of, one_sided_means, ticks_of
+from prolepsis.fluents.intervals import close_gaps, debounce, drop_short, mask_of, one_sided_means, ticks_of
 from prolepsis.fluents.kinematics import BALANCE_WINDOW, balanced
 from prolepsis.fluents.margins import NearMiss, nearly
 from prolepsis.fluents.observation import Observation, is_held_from_outside, named
@@ -39,7 +39,9 @@ def judged_supports(observation: Observation) -> tuple[dict[Pair, IntArray], lis
     missed: list[NearMiss] = []
     for (below, above), bearing, touching in _bearing(observation):
         ratio = np.where(touching & at_rest[above], bearing_ratio(observation, above, bearing), 0.0)
-        stretches = debounce(ratio > 1.0, dt, gap=SUPPORT_GAP, least=min(SUPPORT_LEAST, count * dt))
+        # Blows that come soon after each other are no support, but bounces.
+        pressed = debounce(ratio > 1.0, dt, gap=FLICKER, least=min(FLICKER, count * dt))
+        stretches = drop_short(close_gaps(pressed, ticks_of(SUPPORT_GAP, dt)), min(ticks_of(SUPPORT_LEAST, dt), count))
         if len(stretches):
             found[below, above] = stretches
         if not observation.has_role(below, "Blob") and not is_stuff(observation, above):
