@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
+import numpy as np
 import pytest
+from tests.fluents.logs import Draft, floor, solid_box
 from tests.fluents.worlds import FLOOR as PLANE
 from tests.fluents.worlds import box, watch, world
 from tests.laws.rest_scenes import FLOOR, TABLE, block, cup, disc
@@ -86,3 +89,15 @@ def test_of_a_model_whose_friction_is_not_known_nothing_nearly_slides() -> None:
     slope = '<geom name="slope" type="box" size=".6 .3 .02" euler="0 16 0" friction=".3"/>'
     here = box("b", f"{0.07 * math.sin(math.radians(16))} 0 {0.07 * math.cos(math.radians(16))}", turn="0 16 0")
     assert not missed(watch(world(PLANE.replace("<geom", '<geom pos="0 0 -1"') + slope + here), 0.5), "moving")
+
+
+def test_what_a_liquid_bears_in_part_is_not_told_of_by_where_it_presses() -> None:
+    draft = Draft(600, [floor(), solid_box("box1")])
+    point = draft.poses[0, 1, :3].copy()
+    for share, nearly in ((1.0, True), (0.5, False)):
+        draft.rows.clear()
+        draft.rest("floor", "box1", 0, 600, share * 9.81)
+        log = draft.log()
+        edge = np.tile(point + [0.047, 0.0, -0.05], (600, 1))
+        timeline = recognize(replace(log, contacts=replace(log.contacts, point=edge)))
+        assert bool(missed(timeline, "toppling")) == nearly

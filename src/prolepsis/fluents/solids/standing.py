@@ -39,6 +39,8 @@ DIRECTIONS = 24
 """Directions, evenly about, in which the edge is looked for."""
 STEPS = 48
 """Points on each of them, before it is halved on to a micrometre."""
+BORNE = 0.9
+"""Least share of its weight [1] that its base bears: where something presses tells nothing if a liquid bears it."""
 LEAST_BASE = 0.05
 """Least width of a base, as a share of the greatest radius of what stands on it [1]: less is an edge or a point."""
 
@@ -124,7 +126,9 @@ def _stands(observation: Observation, unit: int) -> Iterator[Stand]:
     for start, end in _looks(observation, unit, [stretches for _, stretches in known]):
         here = slice(*np.searchsorted(contacts.tick[rows], (start, end)).tolist())
         weight = press[here]
-        if not weight.sum() > 0:
+        own = float(observation.mass(unit)[start]) * observation.gravity * (end - start)
+        borne = float(np.abs(contacts.force[rows[here]] @ observation.up).sum())
+        if borne < max(BORNE * own, 1e-12):
             continue
         mean = weight @ normal[here] / weight.sum()
         mean /= max(float(np.linalg.norm(mean)), 1e-12)
