@@ -44,7 +44,7 @@ fast is it taken to be for the substep [1]."""
 SHORTEST_STEP = 1.5e-5
 """No substep is shorter than this [s]."""
 SQUEEZED, SQUEEZED_STEP = 1.0, 2.5e-4
-"""What presses more on a fragment than this [N] gets this substep [s]: a hand that closes on pieces of a fifth of a gram
+"""What presses more on a fragment than this [N] gets this substep [s]: a hand that closes on pieces of some 0.2 g
 shoots them away, and in one of a millisecond the solver comes to no end."""
 DAMPED = 0.1
 """Share of the force under which a dent goes in that damping makes at most [1]."""
