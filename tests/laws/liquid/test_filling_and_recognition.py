@@ -7,12 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from tests.fluents.liquids import liquid, placed, tilted, wet
+from tests.laws.rest_scenes import TABLE
+from tests.scenes import run
 
 from prolepsis.engine.placing import resting_height
 from prolepsis.fluents import recognize
 from prolepsis.fluents.liquids.particle_locations import particle_locations
 from prolepsis.fluents.observation import observe
-from prolepsis.geometry.shape import FloatArray, Geom, Shape
+from prolepsis.geometry.shape import BoolArray, FloatArray, Geom, Shape
+from prolepsis.geometry.signed_distance import field_of
 from prolepsis.log.log import Log
 from prolepsis.log.things import Thing
 from prolepsis.log.timeline import Fact
@@ -107,3 +110,31 @@ def test_what_is_tilted_too_far_is_refused_and_contains_nothing(name: str) -> No
         # The surface is a layer of particles: half of it may be above the brim.
         assert shares[-1] * 0.3 * whole < capacity + 0.1 * whole
     assert shares and shares == sorted(shares, reverse=True)
+
+
+HOLES = (
+    "; :bottomHoleRadius 0.004",
+    "; :bottomHoleRadius 0.01",
+    "; :holeRadius 0.007 ; :holeHeight 0.026 ; :holeCount 4.0",
+    "; :bottomHoleRadius 0.006 ; :holeRadius 0.01 ; :holeHeight 0.03",
+)
+
+
+@pytest.mark.parametrize("particles", [300, 1000])
+@pytest.mark.parametrize("holes", HOLES)
+def test_a_vessel_with_holes_begins_to_leak_when_the_run_begins(holes: str, particles: int) -> None:
+    """All that it is told to contain is within it at time 0, and neither in a hole nor beside it; then it flows."""
+    vessel = f":c a :Cup ; :on :table1 {holes} ; :contains :l . :l a :Water ; :fill 0.8 ."
+    log = run(TABLE + vessel, duration=0.3, particles=particles)
+    shape = log.things[log.index("c")].shape
+    height = max(z for _, z in shape.profile)
+    begun, ended = (log.particles.position[frame] - log.poses[0, log.index("c"), :3] for frame in (0, -1))
+    whole = field_of(replace(shape, holes=()))
+
+    def within(points: FloatArray) -> BoolArray:
+        beside = np.hypot(points[:, 0], points[:, 1]) > max(r for r, _ in shape.profile)
+        clear = whole.distance(points) > 0.45 * log.particles.spacing
+        return clear & ~beside & (points[:, 2] > 0.0) & (points[:, 2] < height)
+
+    assert within(begun).all()
+    assert not within(ended).all()

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from prolepsis.geometry.faces import Solids
-from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray, Shape
 from prolepsis.geometry.signed_distance import shifted, solids_as_arrays, union_of
 from prolepsis.matter.liquids.walls import Bodies
 from prolepsis.matter.liquids.yielding import about, response
@@ -42,7 +44,8 @@ class WallBodies:
         ids: list[int] = []
         carriers: list[int] = []
         first = [0]
-        parts: list[Solids] = []
+        parts: list[tuple[Shape, FloatArray]] = []
+        solids: list[Solids] = []
         for body, carrier in enumerate([int(thing) for thing in state.body_thing]):
             if carrier < 0 or things[carrier].name in panels or self._is_shard(state, body, int(carrier)):
                 continue
@@ -50,20 +53,28 @@ class WallBodies:
             whole = things[carrier].is_body
             among: list[int] = [int(carrier)] if whole else np.flatnonzero(state.carrier == carrier).tolist()
             carried = [i for i in among if things[i].shape.geoms]
-            made = [shifted(solids_as_arrays(things[i].shape), state.offsets[i]) for i in carried]
-            if not made:
+            if not carried:
                 continue
             ids.append(body)
             carriers.append(carrier)
-            parts += made
-            first.append(first[-1] + sum(len(solids.kind) for solids in made))
-        self.solids = union_of(parts)
+            own = [(things[i].shape, state.offsets[i].copy()) for i in carried]
+            made = [shifted(solids_as_arrays(shape), offset) for shape, offset in own]
+            parts += own
+            solids += made
+            first.append(first[-1] + sum(len(each.kind) for each in made))
+        self._parts = parts
+        self.solids = union_of(solids)
         self.ids = np.array(ids, dtype=np.int64)
         self._first = np.array(first, dtype=np.int64)
         self._things = np.array(carriers, dtype=np.int64)
         self._position, self._rotation = self._poses(state)
         self._last = np.zeros((0, 6))
         self._weigh(state)
+
+    def stopped(self) -> Solids:
+        """Return the walls of all bodies with the holes stopped that are drilled through them."""
+        whole = [(replace(shape, holes=()), offset) for shape, offset in self._parts]
+        return union_of([shifted(solids_as_arrays(shape), offset) for shape, offset in whole])
 
     def _weigh(self, state: Running) -> None:
         """Note where the bodies' masses are, and how those that are free and in no hand's grip yield."""

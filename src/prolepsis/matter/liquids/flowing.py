@@ -60,9 +60,10 @@ class Flowing(Controller):
         particles.viscosity = np.maximum(viscosity, SETTLING_VISCOSITY)
         position, rotation = self._walls.now()
         at_rest = self._walls.at(position, rotation, np.zeros_like(position), np.zeros_like(position))
-        passed = 0.0
+        # What is in a vessel stays there until the run begins.
+        walls, passed = self._walls.stopped(), 0.0
         while passed < SETTLING_TIME:
-            self.liquid.step(LONGEST, self._walls.solids, at_rest, at_rest)
+            self.liquid.step(LONGEST, walls, at_rest, at_rest)
             passed += LONGEST
         particles.viscosity = viscosity
         particles.velocity[:] = 0.0
