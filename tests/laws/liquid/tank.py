@@ -7,9 +7,10 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from prolepsis.geometry.shape import BoolArray, FloatArray, Geom, Shape, Triple
-from prolepsis.geometry.signed_distance import solids_as_arrays, union_of
+from prolepsis.geometry.shape import BoolArray, FloatArray, Geom, Hole, Shape, Triple
+from prolepsis.geometry.signed_distance import field_of
 from prolepsis.log.log import FREE, PARKED
+from prolepsis.matter.liquids.holes import walls_of
 from prolepsis.matter.liquids.solver import COURANT, Liquid
 from prolepsis.matter.liquids.walls import Bodies
 from prolepsis.scene.particles import ParticleState
@@ -20,6 +21,9 @@ DOWN: Triple = (0.0, 0.0, -GRAVITY)
 """Gravitational acceleration [m/s^2]."""
 NONE: Triple = (0.0, 0.0, 0.0)
 """No gravity."""
+
+AT_HOME = np.array([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
+"""Pose of what is where its body is."""
 
 Pose = tuple[FloatArray, FloatArray]
 """Position [m], shape (3,), and rotation to the world, shape (3, 3)."""
@@ -92,9 +96,9 @@ class Tank:
         """[s]"""
         self._motions: list[Motion] = [motion for _, motion in walls]
         self._frozen: float | None = None
-        parts = [solids_as_arrays(shape) for shape, _ in walls]
-        self._solids = union_of(parts)
-        self._first = np.cumsum([0, *(len(part.kind) for part in parts)]).astype(np.int64)
+        shapes = [shape for shape, _ in walls]
+        self._walls = walls_of([(shape, AT_HOME) for shape in shapes], spacing)
+        self._first = np.cumsum([0, *(len(field_of(shape).solids.kind) for shape in shapes)]).astype(np.int64)
 
     @property
     def position(self) -> FloatArray:
@@ -147,7 +151,7 @@ class Tank:
         )
         velocity, spin = (p1 - p0) / dt, spin / (2 * dt)
         push = self.liquid.step(
-            dt, self._solids, self._bodies(begun, velocity, spin), self._bodies(ended, velocity, spin)
+            dt, self._walls, self._bodies(begun, velocity, spin), self._bodies(ended, velocity, spin)
         )
         self.time += dt
         return push
@@ -220,10 +224,12 @@ def cup(radius: float, height: float, *, wall: float = 0.005, hole: float = 0.0,
         lid: Thickness of a lid [m]; 0 for none.
     """
     r, top = radius, wall + height
+    drilled = (Hole(position=(0.0, 0.0, (wall + top) / 2), direction=(0.0, 0.0, -1.0), radius=hole),) if hole else ()
     if lid:
         outer = ((0.0, 0.0), (r + wall, 0.0), (r + wall, top + lid), (0.0, top + lid))
         return Shape(profile=(*outer, (0.0, top), (r, top), (r, wall), (0.0, wall)))
-    return Shape(profile=((hole, 0.0), (r + wall, 0.0), (r + wall, top), (r, top), (r, wall), (hole, wall)))
+    outline = ((0.0, 0.0), (r + wall, 0.0), (r + wall, top), (r, top), (r, wall), (0.0, wall))
+    return Shape(profile=outline, holes=drilled)
 
 
 def box(half: Triple, centre: Triple = (0.0, 0.0, 0.0)) -> Geom:

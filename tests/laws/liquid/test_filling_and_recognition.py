@@ -113,10 +113,10 @@ def test_what_is_tilted_too_far_is_refused_and_contains_nothing(name: str) -> No
 
 
 HOLES = (
-    "; :bottomHoleRadius 0.004",
+    "; :bottomHoleRadius 0.008",
     "; :bottomHoleRadius 0.01",
-    "; :holeRadius 0.007 ; :holeHeight 0.026 ; :holeCount 4.0",
-    "; :bottomHoleRadius 0.006 ; :holeRadius 0.01 ; :holeHeight 0.03",
+    "; :holeRadius 0.008 ; :holeHeight 0.026 ; :holeCount 4.0",
+    "; :bottomHoleRadius 0.009 ; :holeRadius 0.01 ; :holeHeight 0.03",
 )
 
 

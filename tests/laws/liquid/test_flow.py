@@ -1,4 +1,4 @@
-"""Water that flows: out of a hole, over a lip, sideways in a cart, and to and fro in a cup."""
+"""Water that flows: over a lip, sideways in a cart, and to and fro in a cup."""
 
 from __future__ import annotations
 
@@ -14,32 +14,6 @@ from prolepsis.geometry.shape import FloatArray
 
 WALL = 0.003
 """Thickness of walls [m]."""
-
-
-def test_a_cup_with_a_hole_in_its_bottom_empties_in_torricellis_time(compare: Compare) -> None:
-    """From 50 to 12.5 mm within 15 % of ``A / (Cd a) sqrt(2 / g) (sqrt h0 - sqrt h1)`` for a Cd from 0.55 to 0.85.
-
-    3800 particles of 3.3 mm, six across the hole of 20 mm. Particles keep off the rim of a hole, so that it acts as if
-    it were narrower by a part of a spacing: with four spacings across Cd is 0.43, with six 0.52, with eight 0.57. The
-    test therefore chooses six, the fewest that a hole should have.
-    """
-    radius, hole, depth, spacing = 0.03, 0.01, 0.05, 0.02 / 6
-    shut = Tank([(cup(radius, 0.09, wall=WALL), still)], filled_cup(radius, depth, spacing, wall=WALL), spacing)
-    shut.settle()
-    tank = Tank([(cup(radius, 0.09, wall=WALL, hole=hole), still)], shut.position, spacing)
-    left = len(tank.position)
-    while left > len(tank.position) / 4:
-        tank.run(0.01)
-        left = int((tank.position[:, 2] > WALL).sum())
-        tank.park(tank.position[:, 2] < -0.02)
-        assert tank.time < 3.0
-
-    def closed_form(discharge: float) -> float:
-        area = (radius / hole) ** 2
-        return area / discharge * math.sqrt(2 / GRAVITY) * (math.sqrt(depth) - math.sqrt(depth / 4))
-
-    expected = (0.85 * closed_form(0.85), 1.15 * closed_form(0.55))
-    compare("a cup empties by a hole", tank.time, expected, by="Torricelli, Cd .55 to .85, 15 %", unit="s")
 
 
 def spill_angle(fill: float, count: int) -> tuple[float, float]:

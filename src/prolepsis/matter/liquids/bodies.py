@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
-from prolepsis.geometry.faces import Solids
-from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray, Shape
-from prolepsis.geometry.signed_distance import shifted, solids_as_arrays, union_of
-from prolepsis.matter.liquids.walls import Bodies
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
+from prolepsis.geometry.signed_distance import field_of
+from prolepsis.matter.liquids.holes import Part, stopped, walls_of
+from prolepsis.matter.liquids.walls import Bodies, Walls
 from prolepsis.matter.liquids.yielding import about, response
 from prolepsis.scene.parts import Panel
 from prolepsis.scene.running import Running
@@ -23,14 +21,15 @@ GREATEST_CHANGE = 20.0
 class WallBodies:
     """What the particles of a run may touch."""
 
-    def __init__(self, state: Running, lightest: float = 0.0) -> None:
-        """Take the bodies as they are now for where the first step begins.
+    def __init__(self, state: Running, spacing: float, lightest: float = 0.0) -> None:
+        """Take the bodies as they are now for where the first step begins, for a liquid of a spacing [m].
 
         Pieces of something broken that weigh less than ``lightest`` [kg] are left out.
         """
+        self._spacing = spacing
         self._lightest = lightest
         self._last = np.zeros((0, 6))
-        self.solids: Solids
+        self.walls: Walls
         """The walls of all bodies."""
         self.ids: IntArray
         """Their MuJoCo bodies, shape (B,)."""
@@ -44,8 +43,7 @@ class WallBodies:
         ids: list[int] = []
         carriers: list[int] = []
         first = [0]
-        parts: list[tuple[Shape, FloatArray]] = []
-        solids: list[Solids] = []
+        parts: list[Part] = []
         for body, carrier in enumerate([int(thing) for thing in state.body_thing]):
             if carrier < 0 or things[carrier].name in panels or self._is_shard(state, body, int(carrier)):
                 continue
@@ -57,13 +55,10 @@ class WallBodies:
                 continue
             ids.append(body)
             carriers.append(carrier)
-            own = [(things[i].shape, state.offsets[i].copy()) for i in carried]
-            made = [shifted(solids_as_arrays(shape), offset) for shape, offset in own]
-            parts += own
-            solids += made
-            first.append(first[-1] + sum(len(each.kind) for each in made))
+            parts += [(things[i].shape, state.offsets[i].copy()) for i in carried]
+            first.append(first[-1] + sum(len(field_of(things[i].shape).solids.kind) for i in carried))
         self._parts = parts
-        self.solids = union_of(solids)
+        self.walls = walls_of(parts, self._spacing)
         self.ids = np.array(ids, dtype=np.int64)
         self._first = np.array(first, dtype=np.int64)
         self._things = np.array(carriers, dtype=np.int64)
@@ -71,10 +66,9 @@ class WallBodies:
         self._last = np.zeros((0, 6))
         self._weigh(state)
 
-    def stopped(self) -> Solids:
+    def stopped(self) -> Walls:
         """Return the walls of all bodies with the holes stopped that are drilled through them."""
-        whole = [(replace(shape, holes=()), offset) for shape, offset in self._parts]
-        return union_of([shifted(solids_as_arrays(shape), offset) for shape, offset in whole])
+        return stopped(self._parts)
 
     def _weigh(self, state: Running) -> None:
         """Note where the bodies' masses are, and how those that are free and in no hand's grip yield."""

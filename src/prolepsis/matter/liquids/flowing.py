@@ -9,6 +9,7 @@ import numpy as np
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.log.log import FREE, PARKED
 from prolepsis.matter.liquids.bodies import WallBodies
+from prolepsis.matter.liquids.holes import note_narrow
 from prolepsis.matter.liquids.particles import first_beyond
 from prolepsis.matter.liquids.solver import LONGEST, Liquid
 from prolepsis.matter.liquids.yielding import about
@@ -41,11 +42,14 @@ class Flowing(Controller):
         """Fill the pools of the scene in and let them settle."""
         self.liquid = Liquid(_particles(state), state.scene.gravity)
         state.particles = self.liquid.particles
+        largest = max(len(pool.position) for pool in state.scene.pools)
+        note_narrow(state.scene.things, self.liquid.particles.spacing, largest)
         things = state.scene.things
         positions = np.array([thing.position for thing in things if thing.shape.geoms])
         self._centre = positions.mean(axis=0) if len(positions) else np.zeros(3)
         self._far = FAR + float(np.linalg.norm(positions - self._centre, axis=1).max(initial=0.0))
-        self._walls = WallBodies(state, LIGHTEST * float(self.liquid.particles.mass.mean()))
+        particles = self.liquid.particles
+        self._walls = WallBodies(state, particles.spacing, LIGHTEST * float(particles.mass.mean()))
         self._force = np.zeros((len(self._walls.ids), 6))
         self._owed = np.zeros_like(self._force)
         self._elapsed = 0
@@ -128,7 +132,7 @@ class Flowing(Controller):
             velocity, spin = going[:, :3].copy(), going[:, 3:].copy()
             begun = self._walls.at(position + velocity * (dt * k / count), rotation, velocity, spin)
             after = self._walls.at(*ended, velocity, spin) if k == count - 1 else begun
-            given = self.liquid.step(dt / count, self._walls.solids, begun, after)
+            given = self.liquid.step(dt / count, self._walls.walls, begun, after)
             going += self._walls.answer(given)
             impulse += given
         # One that is held does not yield; if it is light against the liquid it would shake under a force that

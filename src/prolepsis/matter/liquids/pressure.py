@@ -74,7 +74,7 @@ def solve_pressure(
     n = len(velocity)
     # Arrays of their own: to fetch one from a tuple, or a row as a view, costs as much as a neighbour.
     start, end, other, gradient, _, _ = neighbours
-    seen, bodies, distance, normal, wall, arm, _, slope, _ = contacts
+    seen, bodies, distance, _, normal, wall, arm, _, slope, _ = contacts
     least, taken_back = REST_DISTANCE * spacing, CORRECTION if correcting else 0.0
     # Own part of each row: liquid alone, for what the neighbours' velocities are compared with.
     own, wanted, inverse = np.empty((n, 3)), np.empty(n), np.empty(n)
@@ -207,7 +207,7 @@ def apply_impulses(
         push: What the surfaces that are near have of ``pressed``, out [N s], shape (n, SEEN).
     """
     start, end, other, gradient, _, _ = neighbours
-    seen, _, distance, normal, _, _, _, _, _ = contacts
+    seen, _, distance, _, normal, _, _, _, _, _ = contacts
     for i in range(len(velocity)):
         px, py, pz = pressed[i, 0], pressed[i, 1], pressed[i, 2]
         for f in range(seen[i]):

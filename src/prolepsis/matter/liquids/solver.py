@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from prolepsis.geometry.faces import Solids
 from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.matter.liquids.calming import calm
 from prolepsis.matter.liquids.kernel import SUPPORT, pair_table, wall_tables
@@ -18,7 +17,7 @@ from prolepsis.matter.liquids.pressure import apply_impulses, solve_pressure
 from prolepsis.matter.liquids.reaction import add_adhesion, add_drag, add_pressure, pin_edges
 from prolepsis.matter.liquids.surface import add_tension, complete_density
 from prolepsis.matter.liquids.viscosity import solve_viscosity
-from prolepsis.matter.liquids.walls import SEEN, Bodies, empty_contacts, find_walls, keep_outside
+from prolepsis.matter.liquids.walls import SEEN, Bodies, Walls, empty_contacts, find_walls, keep_outside
 from prolepsis.matter.liquids.yielding import about, response
 from prolepsis.scene.particles import ParticleState
 
@@ -90,12 +89,12 @@ class Liquid:
         by_speed = COURANT * p.spacing / max(greatest_speed(p.velocity, p.holder) + self._fall, 1e-9)
         return max(min(by_speed, self._ripple, LONGEST), SHORTEST)
 
-    def step(self, dt: float, solids: Solids, bodies: Bodies, after: Bodies) -> FloatArray:
+    def step(self, dt: float, walls: Walls, bodies: Bodies, after: Bodies) -> FloatArray:
         """Move the free particles on by ``dt`` [s].
 
         Args:
             dt: Length of the step [s].
-            solids: The walls.
+            walls: The walls.
             bodies: The bodies that they belong to when the step begins, with their mean velocity in it.
             after: The same when the step ends.
 
@@ -118,7 +117,7 @@ class Liquid:
         density, steepness = np.empty(n), np.empty((n, 3))
         side = np.zeros((n, 4))
         contacts = self._contacts
-        find_walls(x, rider, spacing, solids, bodies, tables.share, tables.share_slope, contacts, side)
+        find_walls(x, rider, spacing, walls, bodies, tables.share, tables.share_slope, contacts, side)
         clock.lap("walls")
         while not find_neighbours(x, rows, layer, spacing, side, pair_table(), self._neighbours, density, steepness):
             self._grow(2 * self._room)
@@ -179,7 +178,7 @@ class Liquid:
         self.effort.sweeps += sweeps
         clock.lap("pressure")
         x += dt * going
-        keep_outside(x, rider, going, contacts, spacing, solids, after, dt)
+        keep_outside(x, rider, going, contacts, spacing, walls.faces, after, dt)
         put(p.position, ids, x)
         put(p.velocity, ids, v)
         self._last = dt

@@ -58,7 +58,7 @@ def solve_viscosity(
     """
     n = len(velocity)
     start, end, other, gradient, drag, _ = neighbours
-    seen, bodies, distance, _, wall, arms, weight, _, _ = contacts
+    seen, bodies, _, depth, _, wall, arms, weight, _, _ = contacts
     volume = spacing**3
     found = velocity + guess
     residual, diagonal = np.empty((n, 3)), np.empty((n, 3))
@@ -88,7 +88,7 @@ def solve_viscosity(
             dz += factor * gz * gz
         sx, sy, sz = mass[i] * velocity[i, 0], mass[i] * velocity[i, 1], mass[i] * velocity[i, 2]
         for f in range(seen[i]):
-            q = distance[i, f] / spacing
+            q = depth[i, f] / spacing
             k = weight[i, f] * read_table(drag_table, q) * viscosity[i] * spacing * dt
             slip[i, f] = k
             wx, wy, wz, b = wall[i, f, 0], wall[i, f, 1], wall[i, f, 2], bodies[i, f]
@@ -210,7 +210,7 @@ def _multiply(
 ) -> None:
     """Multiply velocities of particles and of bodies with masses and drags."""
     start, end, other, gradient, factor, _ = neighbours
-    seen, walls, _, _, _, arms, _, _, _ = contacts
+    seen, walls, _, _, _, _, arms, _, _, _ = contacts
     for b in range(len(bodies)):
         m, v = inertia[b], bodies[b]
         for c in range(3):

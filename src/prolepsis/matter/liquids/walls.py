@@ -43,6 +43,15 @@ class Bodies(NamedTuple):
     """Mass [kg], then the rows of the inertia in the world [kg m^2]; zeros for the same, shape (B, 10)."""
 
 
+class Walls(NamedTuple):
+    """The solids of bodies, one by one, as a liquid meets them."""
+
+    faces: Solids
+    """What keeps it out and presses on it."""
+    surfaces: Solids
+    """What it sticks to, which differs from the faces at holes."""
+
+
 class WallContacts(NamedTuple):
     """What n particles see of the walls, in up to SEEN faces each."""
 
@@ -52,6 +61,8 @@ class WallContacts(NamedTuple):
     """Shape (n, SEEN)."""
     distance: FloatArray
     """[m], shape (n, SEEN)."""
+    depth: FloatArray
+    """Distance to the surface that it sticks to there [m], shape (n, SEEN)."""
     normal: FloatArray
     """From the wall into the liquid, world frame, shape (n, SEEN, 3)."""
     velocity: FloatArray
@@ -72,6 +83,7 @@ def empty_contacts(n: int) -> WallContacts:
         seen=np.zeros(n, dtype=np.int64),
         body=np.zeros((n, SEEN), dtype=np.int64),
         distance=np.zeros((n, SEEN)),
+        depth=np.zeros((n, SEEN)),
         normal=np.zeros((n, SEEN, 3)),
         velocity=np.zeros((n, SEEN, 3)),
         arm=np.zeros((n, SEEN, 3)),
@@ -119,7 +131,7 @@ def find_walls(
     position: FloatArray,
     rider: IntArray,
     spacing: float,
-    solids: Solids,
+    walls: Walls,
     bodies: Bodies,
     share_table: FloatArray,
     slope_table: FloatArray,
@@ -130,10 +142,11 @@ def find_walls(
 
     What rides on a particle, the thing that ``rider`` tells, lies on it as a face against the wall that it is on.
     """
-    n, body_count = len(position), len(bodies.first) - 1
+    n, body_count, solids = len(position), len(bodies.first) - 1, walls.faces
     reach = SUPPORT * spacing
     local, which = np.empty((n, 3)), np.empty(n, dtype=np.int64)
     found, count = np.empty((n, MOST_FACES, 4)), np.empty(n, dtype=np.int64)
+    own, own_count = np.empty((n, MOST_FACES, 4)), np.zeros(n, dtype=np.int64)
     for i in range(n):
         contacts.seen[i] = 0
         contacts.share[i] = 0.0
@@ -161,6 +174,9 @@ def find_walls(
                 which[near] = i
                 near += 1
             faces_of(solids, k, local, near, reach, found, count)
+            drilled = solids.span[k, 3] > 0
+            if drilled:
+                faces_of(walls.surfaces, k, local, near, reach, own, own_count)
             for m in range(near):
                 i = which[m]
                 dx, dy, dz = position[i, 0] - ox, position[i, 1] - oy, position[i, 2] - oz
@@ -173,12 +189,14 @@ def find_walls(
                         slot = SEEN - 1
                     while slot > 0 and contacts.distance[i, slot - 1] > distance:
                         contacts.distance[i, slot] = contacts.distance[i, slot - 1]
+                        contacts.depth[i, slot] = contacts.depth[i, slot - 1]
                         contacts.body[i, slot] = contacts.body[i, slot - 1]
                         for c in range(3):
                             contacts.normal[i, slot, c] = contacts.normal[i, slot - 1, c]
                             contacts.velocity[i, slot, c] = contacts.velocity[i, slot - 1, c]
                         slot -= 1
                     contacts.distance[i, slot] = distance
+                    contacts.depth[i, slot] = _depth(found[m, f], own[m], own_count[m]) if drilled else distance
                     contacts.body[i, slot] = b
                     nx, ny, nz = found[m, f, 1], found[m, f, 2], found[m, f, 3]
                     contacts.normal[i, slot, 0] = r[0] * nx + r[1] * ny + r[2] * nz
@@ -219,6 +237,19 @@ def find_walls(
 
 
 @njit(cache=True)
+def _depth(face: FloatArray, own: FloatArray, count: int) -> float:
+    """Return how far the surface is that a face stands for [m], of those that are seen, shape (MOST_FACES, 4)."""
+    depth, most = face[0], 0.5
+    for g in range(count):
+        if own[g, 0] <= 0.0:
+            return 0.0
+        aligned = face[1] * own[g, 1] + face[2] * own[g, 2] + face[3] * own[g, 3]
+        if aligned > most:
+            depth, most = own[g, 0], aligned
+    return depth
+
+
+@njit(cache=True)
 def _lay_rider(
     position: FloatArray, i: int, thing: int, spacing: float, bodies: Bodies, contacts: WallContacts
 ) -> None:
@@ -230,7 +261,7 @@ def _lay_rider(
         if bodies.thing[b] != thing:
             continue
         arm, spin = position[i] - bodies.position[b], bodies.spin[b]
-        contacts.distance[i, slot] = REST_DISTANCE * spacing
+        contacts.distance[i, slot] = contacts.depth[i, slot] = REST_DISTANCE * spacing
         contacts.body[i, slot] = b
         for c in range(3):
             contacts.normal[i, slot, c] = -contacts.normal[i, 0, c]
