@@ -10,6 +10,7 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.matter.liquids.calming import calm
+from prolepsis.matter.liquids.gaps import Gaps
 from prolepsis.matter.liquids.kernel import SUPPORT, pair_table, wall_tables
 from prolepsis.matter.liquids.neighbours import find_neighbours, no_neighbours, row_order
 from prolepsis.matter.liquids.particles import greatest_speed, put
@@ -75,6 +76,7 @@ class Liquid:
         self._last, self._jitter = 1.0e-3, 0.0
         self._grow(ROOM)
         self._contacts = empty_contacts(count)
+        self._gaps = Gaps(particles.spacing)
         # The shortest ripple of the lightest liquid must be seen (Brackbill et al. 1992).
         lightness = (particles.tension / particles.mass).max(initial=1e-12)
         self._ripple = RIPPLE / math.sqrt(2 * math.pi * lightness)
@@ -148,6 +150,12 @@ class Liquid:
         if mobility.any():
             guessed = np.zeros_like(reaction)
             add_pressure(contacts, impulse, push, held, edges, wetting, tables.pull, spacing, dt, x, guessed)
+            volume = p.volume[ids]
+            weight = (mass / volume)[:, None] * self._gravity
+            pressure = impulse / (volume * longer * self._last)
+            between = dt * self._gaps.forces(x, pressure, weight, contacts, walls, bodies, dt)
+            guessed += between
+            reaction += between
             yielded = response(mobility, about(bodies.centre, guessed))
         self.effort.iterations += solve_viscosity(
             v, guess, mass, viscosity, near, contacts, tables.drag, spacing, dt, VISCOUS_TOLERANCE,
@@ -166,7 +174,9 @@ class Liquid:
         self.effort.error += error
         clock.lap("pressure")
         pin_edges(contacts, v, mass, tension, p.pinning[ids], alone, x, spacing, dt, reaction)
+        before = reaction.copy()
         add_pressure(contacts, impulse, push, held, edges, wetting, tables.pull, spacing, dt, x, reaction)
+        self._gaps.pushed = (reaction - before) / dt
         going, push, pressed = v.copy(), np.zeros((n, SEEN)), np.zeros((n, 3))
         impulse = self._correction[ids] * longer
         apply_impulses(impulse, pressed, going, inverse_mass, near, steepness, contacts, spacing, push)
