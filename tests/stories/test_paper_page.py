@@ -14,6 +14,14 @@ from prolepsis.cli import main
 ROOT = Path(__file__).parents[2]
 
 
+NUMBER = re.compile(r"(?<![\w.])\d+(?:\.\d+)?(?![\w.])")
+
+
+def numbers(text: str) -> list[float]:
+    """Return the numbers of a text, those in names left out."""
+    return [float(each) for each in NUMBER.findall(text)]
+
+
 def consoles() -> list[str]:
     """Return the commands of the page with their answers; those that ask of one folder are together."""
     page = (ROOT / "docs" / "paper.md").read_text(encoding="utf-8")
@@ -49,6 +57,9 @@ def test_the_page_tells_what_the_commands_answer(
         main(words[1:])
         if words[1] == "ask":
             asked += 1
-            assert capsys.readouterr().out == answer
+            found = capsys.readouterr().out
+            assert NUMBER.sub("#", found) == NUMBER.sub("#", answer)
+            # Processors round differently, and a liquid's last drops tell: a time may be off by some frames of it.
+            assert numbers(found) == pytest.approx(numbers(answer), rel=0.02, abs=0.1)
         capsys.readouterr()
     assert asked
