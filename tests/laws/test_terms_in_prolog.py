@@ -72,6 +72,7 @@ VALUES: st.SearchStrategy[Value] = st.recursive(
 )
 
 
+@pytest.mark.filterwarnings("ignore:.* is not computed")
 @settings(deadline=None, max_examples=100)
 @given(st.lists(VALUES, min_size=1, max_size=10))
 @example([":÷"])

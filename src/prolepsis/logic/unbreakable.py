@@ -13,6 +13,8 @@ from prolepsis.terms.errors import InputError, brief
 from prolepsis.terms.reader import parse_term
 from prolepsis.terms.terms import Term, format_atom, format_value
 
+TEARS = "Stuff"
+"""What flows may be held by a membrane of its own, which breaks by itself: the yolk of an egg."""
 MOST = 3
 """So many things are told of."""
 
@@ -52,6 +54,8 @@ def _told(timeline: Timeline, type_: str, thing: str) -> str:
     if instead:
         return f"{_facts(instead)} occurred, and {type_} is told of nothing but what is {role}"
     classes = {kind for name, kind in domain.instances if name == thing}
+    if TEARS in classes:
+        return ""
     whole = next((whole for whole, part in domain.parts if part == thing), None)
     if whole is not None and any(whole in each.args for each in timeline.select(type=type_)):
         return f"{brief(format_value(Term(type_, (whole,))))} tells of it: {brief(format_atom(thing))} is a part"

@@ -333,7 +333,7 @@ class Breaking(Controller):
                 stop(state, self.thing.name, self._number, contact)
             state.renew_forces()
         fragment.set(cracked.without(cracked.round_pieces(pieces)).fragments())
-        return self._detached(graph.joined(cracking), self.front.force)
+        return self._detached(graph.joined(cracking), self._dents.yields)
 
     def _pressing(self, state: Running, body: int, fragment: Fragment) -> Pressing:
         """Return what presses on a fragment."""
