@@ -195,7 +195,8 @@ def test_no_shard_goes_through_the_bottom_of_a_bowl(height: float) -> None:
     log = run(TABLE + bowl + f":egg1 a :Egg ; :z {height} . ", duration=math.sqrt(2 * (height - 0.72) / 9.81) + 0.3)
     shards = [i for i in np.unique(log.carrier[-1]).tolist() if "Piece" in log.things[i].roles]
     assert len(shards) > 5
-    assert (log.poses[-1, shards, 2] > 0.72).all()
+    # The table is 0.7 m high, and the bowl as thick as 2 mm.
+    assert (log.poses[-1, shards, 2] > 0.705).all()
 
 
 def test_a_crossing_ends_a_projection_with_status_3(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -10,10 +10,10 @@ from prolepsis.system.mujoco import mujoco
 
 
 def driving_force(model: Any, data: Any, geom: int, contact: int) -> float:
-    """Return the force with which the body of a geom is driven on to the other one of a contact [N].
+    """Return the force with which what touches a geom at a contact is driven on to it [N].
 
-    That is what holds it there at rest, whatever else touches it: motors are felt at their full force, not as they are
-    while they move.
+    That is what holds it there at rest, and all that touches the geom where it does: motors are felt at their full
+    force, not as they are while they move, and also through joints that are coupled.
 
     Args:
         model: A model.
@@ -21,8 +21,6 @@ def driving_force(model: Any, data: Any, geom: int, contact: int) -> float:
         geom: Number of one of both geoms.
         contact: Number of the contact.
     """
-    if not model.body_weldid[model.geom_bodyid[geom]]:
-        return 0.0
     held = mujoco.MjData(model)
     held.qpos[:], held.ctrl[:], held.act[:] = data.qpos, data.ctrl, data.act
     held.mocap_pos[:], held.mocap_quat[:] = data.mocap_pos, data.mocap_quat
@@ -32,10 +30,18 @@ def driving_force(model: Any, data: Any, geom: int, contact: int) -> float:
     mujoco.mj_fwdActuation(model, held)
     mujoco.mj_fwdAcceleration(model, held)
     found = data.contact
-    towards = found.frame[contact, :3] * (1.0 if int(found.geom[contact, 0]) == geom else -1.0)
+    touching = [k for k in np.flatnonzero((found.geom == geom).any(axis=1)).tolist() if found.efc_address[k] >= 0]
+    rows = np.zeros((len(touching) + held.ne, model.nv))
     jacobian = np.zeros((3, model.nv))
-    mujoco.mj_jac(model, held, jacobian, None, found.pos[contact], int(model.geom_bodyid[geom]))
-    row = (towards @ jacobian)[None]
-    moved = np.zeros_like(row)
-    mujoco.mj_solveM(model, held, moved, row)
-    return float(row[0] @ held.qacc_smooth) / max(float(row[0] @ moved[0]), 1e-12)
+    for row, k in zip(rows, touching, strict=False):
+        first, second = found.geom[k].tolist()
+        mujoco.mj_jac(
+            model, held, jacobian, None, found.pos[k], int(model.geom_bodyid[first if second == geom else second])
+        )
+        row[:] = (1.0 if second == geom else -1.0) * found.frame[k, :3] @ jacobian
+    for number, each in enumerate(np.eye(held.ne, held.nefc)):
+        mujoco.mj_mulJacTVec(model, held, rows[len(touching) + number], each)
+    moved = np.zeros_like(rows)
+    mujoco.mj_solveM(model, held, moved, rows)
+    forces = np.linalg.lstsq(rows @ moved.T, rows @ held.qacc_smooth, rcond=1e-10)[0]
+    return float(forces[touching.index(contact)]) if contact in touching else 0.0

@@ -227,7 +227,7 @@ class State:
         return self._pairs
 
     def driving_force(self, geom: int, contact: int) -> float:
-        """Return the force with which the body of a geom is driven on to what it touches at a contact [N]."""
+        """Return the force with which what touches a geom at a contact is driven on to it [N]."""
         return driving_force(self.model, self.data, geom, contact)
 
     def _listed_forces(self) -> list[tuple[int, int, int, float]]:

@@ -143,7 +143,7 @@ class Running(Protocol):
         ...
 
     def driving_force(self, geom: int, contact: int) -> float:
-        """Return the force with which the body of a geom is driven on to what it touches at a contact [N]."""
+        """Return the force with which what touches a geom at a contact is driven on to it [N]."""
         ...
 
     def pressing(self, first: str, second: str) -> float:

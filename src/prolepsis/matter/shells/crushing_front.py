@@ -66,12 +66,13 @@ class CrushingFront:
             found |= distance_to(state, each.by, centres) < each.all
         return found
 
-    def pierces(self, state: Running, points: FloatArray, radius: float) -> bool:
-        """Return whether edges are driven into a body of balls about world points [m], shape (n, 3), which floats.
+    def pierces(self, state: Running, middle: FloatArray, radius: float) -> bool:
+        """Return whether edges are driven into a floating ball of a radius [m] about a world point [m], shape (3,).
 
         What presses slowly pushes it aside.
         """
-        return any(float(distance_to(state, each.by, points).min()) < each.blow + radius for each in self.crushed)
+        fast = [each for each in self.crushed if each.blow >= each.all]
+        return any(float(distance_to(state, each.by, middle[None])[0]) < each.blow + radius for each in fast)
 
 
 def front_growth(beyond: float) -> float:

@@ -87,6 +87,8 @@ class Membrane(Controller):
         self._positions, self._push = np.zeros_like(positions), np.zeros_like(positions)
         self.strength = stuff.force / (2 * math.pi * stuff.probe_radius)
         """Tension at which it tears: the probe's force over its rim [N/m]."""
+        volume = float(state.particles.volume[self._own].sum())
+        self._radius = (3 * volume / (4 * math.pi)) ** (1 / 3)
         self.tension = 0.0
         """Tension round the yolk [N/m]."""
         self.broken = False
@@ -98,7 +100,7 @@ class Membrane(Controller):
             return
         positions = particles.position[self._own].copy()
         front, self._front = self._front, None
-        if front and front.pierces(state, positions, particles.spacing / 2):
+        if front and front.pierces(state, positions.mean(axis=0), self._radius):
             self._tear(state, front.force)
             return
         if np.array_equal(positions, self._positions):
@@ -110,8 +112,7 @@ class Membrane(Controller):
         mass = particles.mass[self._own]
         # Halves of the yolk pull on each other through the membrane round its middle.
         force = float(mass @ np.linalg.norm(pull, axis=1)) / 2
-        volume = float(particles.volume[self._own].sum())
-        self.tension = force / (2 * math.pi * (3 * volume / (4 * math.pi)) ** (1 / 3))
+        self.tension = force / (2 * math.pi * self._radius)
         if self.tension > self.strength:
             self._tear(state, force)
             return
