@@ -81,3 +81,14 @@ def test_transitions_are_narrowed_down_by_further_runs() -> None:
 def test_only_one_name_can_be_refined() -> None:
     with pytest.raises(InputError, match="only a sweep over one name"):
         sweep(EXAMPLES / "grasp_egg.toml", {"Force": [1.0], "Acceleration": [1.0, 2.0]}, refine=1)
+
+
+def test_a_sweep_tells_an_action_that_fell_short_by_its_outcome(tmp_path: Path) -> None:
+    (tmp_path / "s.ttl").write_text(
+        "@prefix : <https://w3id.org/prolepsis#> . :floor a :Floor . :table1 a :Table . :hand1 a :Gripper ; :z 1.0 ."
+    )
+    (tmp_path / "s.toml").write_text(
+        'situation = "s.ttl"\nplan = "lift(hand1, H)"\n[parameters]\nH = { value = -0.1, unit = "m" }\n'
+    )
+    outcomes = sweep(tmp_path / "s.toml", {"H": [-0.1, -0.6]})
+    assert [row.outcome for row in outcomes.rows] == ["done", "in_collision"]

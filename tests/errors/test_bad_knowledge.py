@@ -178,3 +178,10 @@ def test_a_byte_order_mark_is_no_text(tmp_path: Path) -> None:
     path = tmp_path / "s.ttl"
     path.write_text(f"{PREFIX}:egg1 a :Egg .", encoding="utf-8-sig")
     assert "egg1" in KnowledgeBase.load(path).objects
+
+
+@pytest.mark.parametrize("classes", [":Wall, :Obstacle", ":Block, :Obstacle"])
+def test_what_is_in_no_list_together_may_be_one_thing(tmp_path: Path, classes: str) -> None:
+    file = tmp_path / "s.ttl"
+    file.write_text(f"@prefix : <https://w3id.org/prolepsis#> . :b a {classes} .", encoding="utf-8")
+    assert KnowledgeBase.load(file).objects == ("b",)

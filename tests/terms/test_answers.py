@@ -6,6 +6,7 @@ import copy
 import json
 import pickle
 
+import numpy as np
 import pytest
 
 import prolepsis
@@ -44,3 +45,8 @@ def test_a_term_is_not_its_text() -> None:
     assert told != "broken(egg1)" and str(told) == "broken(egg1)"
     assert as_answer(Variable("X")) != "X"
     assert as_answer(Term("-", (0.5, 2.0))) != {"start": 0.5, "end": 2.0}
+
+
+def test_a_number_of_numpy_is_told_as_a_number() -> None:
+    assert format_value(np.float64(3.5)) == "3.5"
+    assert format_value(Term("lifting", ("hand1", np.float64(0.1)))) == "lifting(hand1,0.1)"

@@ -33,6 +33,8 @@ class Row:
     """Commanded force of the grasp [N], also when the value is the name of a level."""
     grasp: Grasp | None = None
     """What became of the grasp, if the plan has one."""
+    outcome: str = "done"
+    """That of the last action that did not reach its aim, else ``done``."""
     answers: Sequence[Mapping[str, Value]] | None = None
     """Answers to the goal, if one was given."""
     error: str | None = None
@@ -187,7 +189,9 @@ def _run(scenario: Scenario, values: dict[str, float | str], ask: str | None, li
         return Row(values=values, error=str(error), invalid=isinstance(error, InvalidSimulationError))
     unchecked = result.timeline.domain.unchecked
     level = _newtons(grasp, result.scene.number)
-    return Row(values=values, level=level, grasp=grasp, answers=answers, unchecked=unchecked)
+    short = [action.outcome for action in result.log.actions if action.outcome != "done"]
+    outcome = short[-1] if short else "done"
+    return Row(values=values, level=level, grasp=grasp, outcome=outcome, answers=answers, unchecked=unchecked)
 
 
 def _newtons(grasp: Grasp | None, number: Callable[[str, str], float | None]) -> float | None:

@@ -103,7 +103,7 @@ def report(outcomes: Outcomes) -> str:
             grasp = row.grasp
             cells += [grasp.outcome, f"{1000 * grasp.slip:.2f}", f"{grasp.peak_force:.2f}", str(grasp.bonds_broken)]
         else:
-            cells += ["error" if row.error else "done", *(["-"] * 3 if grasps else [])]
+            cells += ["error" if row.error else row.outcome, *(["-"] * 3 if grasps else [])]
         rows.append(cells)
     lines = table(rows).splitlines()
     shown = lines[:1]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from prolepsis.fluents.agents.actions import action_facts
 from prolepsis.fluents.margins import NearMiss
 from prolepsis.fluents.observation import observe
@@ -30,10 +32,18 @@ def recognize(log: Log, *, domain: Domain | None = None) -> Timeline:
         raise LogError(f"a log is recognized, as `read_log` or `Log.from_mujoco` gives it, not {given}")
     observation = observe(log)
     found = [each for grounding in GROUNDINGS for each in grounding(observation)]
-    facts: list[Fact] = [each for each in found if isinstance(each, Fact)]
+    facts: list[Fact] = [_rounded(each) for each in found if isinstance(each, Fact)]
     nearly = [each.fact for each in found if isinstance(each, NearMiss)]
     for kind, name, count in dict.fromkeys((fact.kind, fact.type, len(fact.args)) for fact in (*facts, *nearly)):
         check_declared(kind, name, count)
     facts += action_facts(observation)
     known = domain or with_things(Domain(), log.things)
     return make_timeline(facts, dt=log.dt, duration=log.duration, domain=known, near_misses=nearly)
+
+
+def _rounded(fact: Fact) -> Fact:
+    """Return a fact whose numbers are as they are told: 0.999999999999998 of a liquid is all of it."""
+    told = {
+        name: float(f"{value:.12g}") if isinstance(value, float) else value for name, value in fact.evidence.items()
+    }
+    return replace(fact, evidence=told)

@@ -139,7 +139,8 @@ def _format_number(number: int | float) -> str:
         return "1.5NaN"
     if math.isinf(number):
         return "1.0Inf" if number > 0 else "-1.0Inf"
-    text = repr(number)
+    # A float of numpy tells its type.
+    text = float.__repr__(number)
     if abs(number) >= 1e15 and text.endswith(".0"):  # Prolog changes to exponents one place earlier
         digits = text.removesuffix(".0").lstrip("-")
         text = f"{'-' if number < 0 else ''}{digits[0]}.{digits[1:].rstrip('0') or '0'}e{len(digits) - 1}"
