@@ -43,5 +43,5 @@ def driving_force(model: Any, data: Any, geom: int, contact: int) -> float:
         mujoco.mj_mulJacTVec(model, held, rows[len(touching) + number], each)
     moved = np.zeros_like(rows)
     mujoco.mj_solveM(model, held, moved, rows)
-    forces = np.linalg.lstsq(rows @ moved.T, rows @ held.qacc_smooth, rcond=1e-10)[0]
+    forces = np.linalg.pinv(rows @ moved.T, rcond=1e-10, hermitian=True) @ (rows @ held.qacc_smooth)
     return float(forces[touching.index(contact)]) if contact in touching else 0.0
