@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.fluents.logs import Draft
 from tests.fluents.worlds import (
     FLOOR,
     HAND,
@@ -28,7 +29,9 @@ from tests.laws.rest_scenes import block
 from tests.scenes import run
 
 from prolepsis.fluents import recognize
+from prolepsis.geometry.shape import Geom, Shape
 from prolepsis.log.near import is_near
+from prolepsis.log.things import FIXED, FREE, Mount, Thing
 from prolepsis.log.timeline import Evidence, Timeline
 
 BOX = box("box", "0 0 .1", ".03 .05 .1", 0.5)
@@ -261,6 +264,47 @@ def test_what_stands_on_a_board_that_is_tilted_does_not_tip_until_it_turns_on_it
     here = box("box", "0 0 .12", ".03 .05 .1", 0.5, 'friction="2"')
     assert not of_type(watch(world(board + here), 2.0, tilt(12.0)), "tipping")
     assert the(watch(world(board + here), 2.5, tilt(25.0)), "tipping(box)")["edge"] == "board"
+
+
+@pytest.mark.parametrize(("what", "begins"), [("after it was lifted", 1.2), ("while it is lifted", 0.4)])
+def test_what_turns_below_a_thing_does_not_tip_it(what: str, begins: float) -> None:
+    # The end of a plank lies on a ball that lifts it by a little and turns on the spot by much.
+    block = '<body name="block" pos="-.1 0 .03"><geom type="box" size=".02 .05 .03"/></body>'
+    sphere = '<geom type="sphere" size=".03" friction="0" priority="1"/>'
+    prop = f'<body name="prop" mocap="true" pos=".1 0 .03">{sphere}</body>'
+    lifted = 0.035
+
+    def under(model: Any, data: Any) -> None:
+        half = ramp(data.time, begins, begins + 0.6, math.radians(60)) / 2
+        data.mocap_quat[0] = [math.cos(half), 0, math.sin(half), 0]
+        data.mocap_pos[0, 2] = 0.03 + ramp(data.time, 0.4, 1.0, 0.22 * lifted)
+
+    timeline = watch(world(FLOOR + block + prop + box("plank", "0 0 .07", ".15 .05 .01", 0.5)), 2.0, under)
+    assert {"supports(block,plank)", "supports(prop,plank)"} <= of_type(timeline, "supports"), what
+    assert not of_type(timeline, "toppling"), what
+    ((start, end),) = times(timeline, "tipping(plank)")
+    assert (start, end) == pytest.approx((0.4, 1.0), abs=0.1), what
+    assert float(the(timeline, "tipping(plank)")["angle"]) < 1.1 * lifted, what
+
+
+@pytest.mark.parametrize(("presses", "edge"), [(0.05, "block"), (4.0, "shard")])
+def test_what_hardly_bears_a_thing_is_no_edge_of_it(presses: float, edge: str) -> None:
+    # A plank is lifted at one end and turns about a line at which a block and a shard touch it.
+    def at(name: str, y: float, mount: Mount) -> Thing:
+        cube = Shape(geoms=(Geom(type="box", size=(0.01, 0.01, 0.01)),))
+        return Thing(name=name, kind="Block", shape=cube, mass=0.001, position=(-0.1, y, 0.0), mount=mount)
+
+    flat = Shape(geoms=(Geom(type="box", size=(0.1, 0.05, 0.01)),))
+    plank = Thing(name="plank", kind="Block", shape=flat, mass=0.5, position=(0.0, 0.0, 0.01))
+    draft = Draft(700, [plank, at("shard", 0.02, FREE), at("block", -0.02, FIXED)])
+    angle = np.interp(np.arange(700), (200, 500), (0.0, 0.1))
+    arm = np.array([0.1, 0.01])
+    draft.poses[:, 0, 0] = np.cos(angle) * arm[0] - np.sin(angle) * arm[1] - 0.1
+    draft.poses[:, 0, 2] = np.sin(angle) * arm[0] + np.cos(angle) * arm[1]
+    draft.poses[:, 0, 3:] = np.stack([np.cos(angle / 2), 0 * angle, -np.sin(angle / 2), 0 * angle], axis=1)
+    draft.rest("shard", "plank", 0, 700, presses)
+    draft.rest("block", "plank", 0, 700, 4.9 - presses)
+    assert the(recognize(draft.log()), "tipping(plank)")["edge"] == edge
 
 
 def test_the_load_counts_and_the_centre_of_mass_that_a_model_tells() -> None:

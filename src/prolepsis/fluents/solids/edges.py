@@ -54,7 +54,15 @@ class Standing:
     def speed(self, dt: float) -> FloatArray:
         """Return how fast it turns about any horizontal axis, over half a window before and after [rad/s], (T,)."""
         half = ticks_of(TURNING_WINDOW / 2, dt)
-        return _norms(_change(self.upright, half, half)) / (2 * half * dt)
+        return self._turned(half, half) / (2 * half * dt)
+
+    def step(self) -> FloatArray:
+        """Return by how much it turns so from each tick to the next [rad], shape (T,)."""
+        return self._turned(0, 1)
+
+    def _turned(self, before: int, after: int) -> FloatArray:
+        """Return the lesser of how it turns on what is below and in the world: what lies still does not turn."""
+        return np.minimum(*(_norms(_change(axis, before, after)) for axis in (self.upright, self.up)))
 
     def on_edge(self, dt: float) -> BoolArray:
         """Return whether it turns about a point that stays where it is in the body, or in what is below, (T,).

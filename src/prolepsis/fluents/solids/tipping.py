@@ -96,6 +96,10 @@ class Tip:
         return "leaning" if stands else "off"
 
 
+Bearer = tuple[Standing, BoolArray]
+"""How a unit stands on something, and when that bears it, shape (T,)."""
+
+
 @event("tipping", "o")
 def tipping(observation: Observation) -> Iterator[Fact]:
     """What stood turns about an edge, until it has fallen over, is back, or rests on the edge."""
@@ -136,9 +140,16 @@ def tips(observation: Observation) -> tuple[Tip, ...]:
     found: list[Tip] = []
     for unit in observation.units:
         if is_loose(observation, unit) and not is_stuff(observation, unit) and _tilts(observation, unit):
-            several = [tip for standing in standings(observation, unit) for tip in _tips(observation, standing)]
-            found += _apart(several)
+            bearers = _bearers(observation, unit)
+            found += _apart([tip for bearer in bearers for tip in _tips(observation, bearer, bearers)])
     return tuple(found)
+
+
+def _bearers(observation: Observation, unit: int) -> list[Bearer]:
+    """Return what ever bears a noticeable share of a unit's weight: what only lies against it is no edge."""
+    known, count = dict(observation.of(supporters).get(unit, [])), observation.tick_count
+    several = [(standing, int(observation.unit[standing.below])) for standing in standings(observation, unit)]
+    return [(standing, mask_of(known[base], count)) for standing, base in several if base in known]
 
 
 def _tilts(observation: Observation, unit: int) -> bool:
@@ -156,12 +167,12 @@ def _apart(several: list[Tip]) -> list[Tip]:
     return sorted(kept, key=lambda each: each.start)
 
 
-def _tips(observation: Observation, standing: Standing) -> Iterator[Tip]:
-    dt, count, base = observation.dt, observation.tick_count, int(observation.unit[standing.below])
+def _tips(observation: Observation, bearer: Bearer, bearers: list[Bearer]) -> Iterator[Tip]:
+    (standing, borne), dt, count = bearer, observation.dt, observation.tick_count
+    base = int(observation.unit[standing.below])
     held = [stretches for (_, unit), stretches in observation.of(attachment_runs).items() if unit == standing.unit]
     free = standing.touching & observation.exists(standing.unit) & ~mask_of(union(held), count)
-    step = np.linalg.norm(np.diff(standing.upright, axis=0, append=standing.upright[-1:]), axis=1)
-    turning = (standing.speed(dt) > TURNING_SPEED) & (step > STILL_SPEED * dt)
+    turning = (standing.speed(dt) > TURNING_SPEED) & (standing.step() > STILL_SPEED * dt)
     slow = standing.touching | (observation.of(climb_speeds)[standing.unit] > -SET_DOWN)
     on_edge = standing.on_edge(dt)
     about = standing.about_edge(on_edge)
@@ -171,8 +182,8 @@ def _tips(observation: Observation, standing: Standing) -> Iterator[Tip]:
     alone = ~mask_of(union(others), count)
     for start, end in _held_up(standing, several, free & about & alone).tolist():
         for first, last in _about_one(standing, start, end, on_edge):
-            if _stood(slow & ~turning, first, dt):
-                tip = _measured(observation, standing, first, last, on_edge, about)
+            if borne[first:last].any() and _stood(slow & ~turning, first, dt):
+                tip = _measured(observation, standing, bearers, (first, last), on_edge, about)
                 turned = float(tip.angle[start:end].max())
                 if tip.margin > 0 and tip.greatest >= LEAST_ANGLE and not _rolls(tip, turned, on_edge):
                     yield tip
@@ -219,17 +230,35 @@ def _stood(still: BoolArray, start: int, dt: float) -> bool:
 
 
 def _measured(
-    observation: Observation, standing: Standing, start: int, end: int, on_edge: BoolArray, about: BoolArray
+    observation: Observation,
+    standing: Standing,
+    bearers: list[Bearer],
+    stretch: tuple[int, int],
+    on_edge: BoolArray,
+    about: BoolArray,
 ) -> Tip:
+    start, end = stretch
     flat = _flat(observation, standing, start + int(np.argmax(on_edge[start:end])), end)
     angle = _angles(standing.upright, flat)
     # On which side, seen from the edge, its centre of mass was: there its face is down.
     side = _unit(_beside(standing.upright - np.cos(angle)[:, None] * flat, standing.up))
-    arm = laden_centre(observation, standing.unit, start) - standing.point
-    inside = np.arctan2(_dots(arm, side), _dots(arm, standing.up))
+    centre = laden_centre(observation, standing.unit, start)
+    inside = _inside(centre - standing.point, side, standing.up)
+    # It does not go over before its centre of mass is beyond all that bears it.
+    for other, borne in bearers:
+        further = np.maximum(inside, _inside(centre - other.point, side, standing.up))
+        inside = np.where(borne & other.touching, further, inside)
     balance = np.maximum(angle + inside, angle / FURTHEST)
-    share = np.where(about & standing.pressing & (angle >= LEAST_ANGLE / 2), angle / np.maximum(balance, 1e-12), 0.0)
-    return Tip(standing=standing, start=start, end=end, angle=angle, share=share)
+    # What is below may turn under what lies still.
+    own = _angles(standing.up, standing.up[start]) + _angles(standing.upright[start], flat)
+    turned = np.minimum(angle, own)
+    share = np.where(about & standing.pressing & (turned >= LEAST_ANGLE / 2), turned / np.maximum(balance, 1e-12), 0.0)
+    return Tip(standing=standing, start=start, end=end, angle=turned, share=share)
+
+
+def _inside(arm: FloatArray, side: FloatArray, up: FloatArray) -> FloatArray:
+    """Return by which angle what is at the end of an arm is on one side of where that begins [rad], shape (T,)."""
+    return np.arctan2(_dots(arm, side), _dots(arm, up))
 
 
 def _rolls(tip: Tip, turned: float, on_edge: BoolArray) -> bool:
