@@ -27,7 +27,7 @@ NOTICEABLE_SHARE = 0.1
 BARELY, WHOLLY = 0.01, 0.97
 """Up to which share [1] a body only touches a liquid, and from which on nothing that can be told looks out."""
 BORNE_SHARE = 0.5
-"""Share of its weight [1] that a liquid bears of what floats in it, and no contact."""
+"""Share of its weight [1] that a liquid bears of what floats in it; contacts may bear the rest."""
 BOBBING_SPEED = 0.3
 """Vertical speed [m/s] up to which what a liquid bears floats; what falls in or is thrown out is faster."""
 SPEED_WINDOW = 0.05
@@ -78,7 +78,7 @@ def immersed(observation: Observation) -> Iterator[Fact | NearMiss]:
 
 @fluent("floats", "o1", "o2")
 def floats(observation: Observation) -> Iterator[Fact | NearMiss]:
-    """The liquid o2 bears o1's weight, no contact does, and o1 looks out of it and neither sinks nor shoots up."""
+    """The liquid o2 bears at least half of o1's weight, and o1 looks out of it and neither sinks nor shoots up."""
     for (unit, stuff), share in _shares(observation).items():
         what = ("fluent", "floats", (observation.unit_names[unit], observation.unit_names[stuff]))
         borne = _borne_by_liquid(observation, unit)
