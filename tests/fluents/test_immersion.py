@@ -7,6 +7,9 @@ import pytest
 from tests.fluents.liquids import HEIGHT, WALL, D, poured, puddle, says, table, vessel, wet
 
 from prolepsis.fluents import recognize
+from prolepsis.fluents.liquids.immersion import lattice
+from prolepsis.fluents.observation import observe
+from prolepsis.fluents.shapes_in_time import rigid_shapes
 from prolepsis.geometry.shape import FloatArray, Geom, Shape
 from prolepsis.log.things import Thing
 from prolepsis.log.timeline import Fact, Timeline
@@ -99,3 +102,13 @@ def test_what_is_under_or_round_a_vessel_is_not_in_its_liquid() -> None:
     )
     log = wet([table(), vessel(), tray], {"liq1": poured(high=LEVEL)}, ticks=100)
     assert says(recognize(log), "floats", "immersed") == set()
+
+
+def test_the_points_in_a_body_are_as_its_middle_and_reach_all_its_sides_alike() -> None:
+    # None of its sides but the longest is a whole number of steps of the longest.
+    shape = Shape(geoms=(Geom(type="ellipsoid", size=(0.022, 0.0195, 0.0285)),))
+    egg = Thing(name="egg1", kind="Ball", shape=shape, mass=0.058, position=(0.0, 0.0, 0.1))
+    (rigid,) = observe(wet([egg], {"liq1": puddle()})).of(rigid_shapes)
+    points = lattice(rigid)
+    np.testing.assert_allclose(points.mean(axis=0), 0.0, atol=1e-9)
+    np.testing.assert_allclose(points.max(axis=0), -points.min(axis=0))

@@ -136,7 +136,7 @@ def _submerged(
     """Return the share of a body's volume in each liquid of a vessel, in each frame, shape (F,)."""
     particles, up = seen.particles, observation.up
     pose = observation.log.poses[particles.tick, shape.body]
-    points = _lattice(shape)
+    points = lattice(shape)
     middle = points.mean(axis=0)
     centre = pose[:, :3] + rotate(pose[:, 3:], middle)
     reach = float(np.linalg.norm(points - middle, axis=1).max()) + REACH * particles.spacing
@@ -193,11 +193,12 @@ def _within(liquid: FloatArray, matter: FloatArray, up: FloatArray, spacing: flo
     return (matter @ directions.T <= (liquid @ directions.T).max(axis=0) + BESIDE * spacing).all(axis=1)
 
 
-def _lattice(shape: RigidShape) -> FloatArray:
+def lattice(shape: RigidShape) -> FloatArray:
     """Return points spread evenly through a body, in its frame, shape (n, 3)."""
     low, high = shape.bounds()
-    step = float((high - low).max()) / LATTICE
-    axes = [low[c] + step * (np.arange(max(1, round((high[c] - low[c]) / step))) + 0.5) for c in range(3)]
+    wide = high - low
+    counts = [max(1, round(LATTICE * float(each / wide.max()))) for each in wide]
+    axes = [low[c] + wide[c] * (np.arange(counts[c]) + 0.5) / counts[c] for c in range(3)]
     points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
     within = np.min([solid.distance(points) for solid in shape.solids], axis=0) < 0.0
     return points[within] if within.any() else np.array([solid.corners.mean(axis=0) for solid in shape.solids])
