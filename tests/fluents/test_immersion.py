@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from tests.fluents.liquids import HEIGHT, WALL, D, poured, puddle, says, table, vessel, wet
@@ -11,6 +13,7 @@ from prolepsis.fluents.liquids.immersion import lattice
 from prolepsis.fluents.observation import observe
 from prolepsis.fluents.shapes_in_time import rigid_shapes
 from prolepsis.geometry.shape import FloatArray, Geom, Shape
+from prolepsis.log.near import is_near
 from prolepsis.log.things import Thing
 from prolepsis.log.timeline import Fact, Timeline
 
@@ -20,10 +23,10 @@ RADIUS, WEIGHT = 0.012, 0.04
 """Of the ball [m], [N]."""
 
 
-def ball(height: float) -> Thing:
+def ball(height: float, weight: float = WEIGHT) -> Thing:
     """Return a ball whose middle is at a height."""
     shape = Shape(geoms=(Geom(type="sphere", size=(RADIUS, 0.0, 0.0)),))
-    return Thing(name="ball1", kind="Ball", shape=shape, mass=WEIGHT / 9.81, position=(0.0, 0.0, height))
+    return Thing(name="ball1", kind="Ball", shape=shape, mass=weight / 9.81, position=(0.0, 0.0, height))
 
 
 def water(height: float) -> FloatArray:
@@ -32,9 +35,15 @@ def water(height: float) -> FloatArray:
     return points[np.linalg.norm(points - [0.0, 0.0, height], axis=1) > RADIUS + 0.4 * D]
 
 
-def with_ball(height: float, *, lifts: dict[tuple[str, str], float] | None = None, fall: float = 0.0) -> Timeline:
+def with_ball(
+    height: float,
+    *,
+    lifts: dict[tuple[str, str], float] | None = None,
+    fall: float = 0.0,
+    weight: float = WEIGHT,
+) -> Timeline:
     """Return the timeline of a cup of water with a ball, which goes down by some way [m] in a second."""
-    things = [table(), vessel(), ball(height)]
+    things = [table(), vessel(), ball(height, weight)]
     poses = np.tile(np.array([0.0, 0.0, height, 1.0, 0.0, 0.0, 0.0]), (100, 1))
     poses[:, 2] -= np.linspace(0.0, fall, 100)
     log = wet(things, {"liq1": water(height)}, ticks=100, poses={"ball1": poses}, lifts=lifts)
@@ -65,6 +74,33 @@ def test_what_has_sunk_is_immersed_and_does_not_float() -> None:
 def test_what_something_else_bears_does_not_float() -> None:
     timeline = with_ball(LEVEL, lifts={("table1", "ball1"): 0.9 * WEIGHT})
     assert says(timeline, "floats", "immersed") == {"immersed(ball1,liq1)"}
+
+
+DISPLACED = 4 / 3 * np.pi * RADIUS**3 * 1000 * 9.81
+"""Weight of the water in the ball's stead [N]."""
+
+
+@pytest.mark.parametrize(("density", "near"), [(0.5, False), (0.8, False), (0.9, True), (0.99, True), (1.1, True)])
+def test_what_is_about_as_dense_as_its_liquid_floats_near_the_threshold(density: float, near: bool) -> None:
+    # What floats though it is too dense does so by an error, or by the surface's tension.
+    told = the(with_ball(LEVEL - 0.6 * RADIUS, weight=density * DISPLACED), "floats").evidence
+    assert told["margin"] == pytest.approx(max(1 / density, 1.0), abs=0.03)
+    assert is_near(told) == near
+
+
+@pytest.mark.parametrize(("density", "margin"), [(0.5, 0.0), (0.95, 0.97), (1.1, 1 / 1.1), (1.3, 0.0)])
+def test_what_is_about_as_dense_as_its_liquid_and_under_it_nearly_floats(density: float, margin: float) -> None:
+    timeline = with_ball(LEVEL - 1.5 * RADIUS, weight=density * DISPLACED)
+    assert says(timeline, "floats", "immersed") == {"immersed(ball1,liq1)"}
+    found = [fact.evidence["margin"] for fact in timeline.near_misses if fact.type == "floats"]
+    assert found == ([pytest.approx(margin, abs=0.03)] if margin else [])
+
+
+def test_of_what_may_hold_air_the_density_tells_nothing() -> None:
+    halves = (Geom(type="box", size=(RADIUS, RADIUS, 0.006), position=(0.0, 0.0, z)) for z in (-0.006, 0.006))
+    hull = replace(ball(LEVEL, 2 * DISPLACED), shape=Shape(geoms=tuple(halves)))
+    timeline = recognize(wet([table(), vessel(), hull], {"liq1": water(LEVEL)}, ticks=100))
+    assert the(timeline, "floats").evidence["margin"] == 2.0
 
 
 def test_what_shoots_through_the_surface_does_not_float() -> None:

@@ -19,7 +19,7 @@ from prolepsis.fluents.solids.containment import fractions
 from prolepsis.fluents.solids.touch import touches
 from prolepsis.geometry.rotations import rotate
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
-from prolepsis.log.near import MARGIN
+from prolepsis.log.near import MARGIN, NEAR
 from prolepsis.log.timeline import Fact
 
 NOTICEABLE_SHARE = 0.1
@@ -82,17 +82,21 @@ def floats(observation: Observation) -> Iterator[Fact | NearMiss]:
     for (unit, stuff), share in _shares(observation).items():
         what = ("fluent", "floats", (observation.unit_names[unit], observation.unit_names[stuff]))
         borne = _borne_by_liquid(observation, unit)
-        partly = (share > BARELY) & (share < WHOLLY) & (_vertical_speed(observation, unit) < BOBBING_SPEED)
-        ratio = np.where(partly, borne / BORNE_SHARE, 0.0)
+        slow = (share > BARELY) & (_vertical_speed(observation, unit) < BOBBING_SPEED)
+        ratio = np.where(slow & (share < WHOLLY), borne / BORNE_SHARE, 0.0)
+        lightness = _lightness(observation, unit, stuff)
         stretches = debounce(ratio >= 1.0, observation.dt, gap=GAP, least=LEAST)
         for start, end in stretches.tolist():
             evidence = {
                 "share": float(borne[start:end].mean()),
                 **fractions(share[start:end]),
-                MARGIN: margin_of(ratio, start, end),
+                MARGIN: margin_of(np.minimum(ratio, np.maximum(lightness, 1.0)), start, end),
             }
             yield observation.fact(*what, (start, end), evidence)
-        yield from nearly(observation, what, ratio, stretches)
+        # What is about as dense as the liquid might as well have looked out.
+        alike = slow & (share > WHOLLY) & (lightness <= 1 / (1 - NEAR))
+        covered = np.minimum(np.minimum(borne / BORNE_SHARE, lightness), WHOLLY / np.maximum(share, WHOLLY))
+        yield from nearly(observation, what, np.where(alike, covered, ratio), stretches)
 
 
 def immersions(observation: Observation) -> tuple[Immersion, ...]:
@@ -195,13 +199,18 @@ def _within(liquid: FloatArray, matter: FloatArray, up: FloatArray, spacing: flo
 
 def lattice(shape: RigidShape) -> FloatArray:
     """Return points spread evenly through a body, in its frame, shape (n, 3)."""
+    points, within = _points(shape)
+    return points[within] if within.any() else np.array([solid.corners.mean(axis=0) for solid in shape.solids])
+
+
+def _points(shape: RigidShape) -> tuple[FloatArray, BoolArray]:
+    """Return points spread evenly through the box round a body, shape (n, 3), and which are in the body, shape (n,)."""
     low, high = shape.bounds()
     wide = high - low
     counts = [max(1, round(LATTICE * float(each / wide.max()))) for each in wide]
     axes = [low[c] + wide[c] * (np.arange(counts[c]) + 0.5) / counts[c] for c in range(3)]
     points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
-    within = np.min([solid.distance(points) for solid in shape.solids], axis=0) < 0.0
-    return points[within] if within.any() else np.array([solid.corners.mean(axis=0) for solid in shape.solids])
+    return points, np.min([solid.distance(points) for solid in shape.solids], axis=0) < 0.0
 
 
 def _borne_by_liquid(observation: Observation, unit: int) -> FloatArray:
@@ -213,6 +222,20 @@ def _borne_by_liquid(observation: Observation, unit: int) -> FloatArray:
     weight = np.maximum(observation.mass(unit) * observation.gravity, 1e-12)
     share: FloatArray = np.clip(1.0 - np.abs(lifted) / weight, 0.0, 1.0)
     return share
+
+
+def _lightness(observation: Observation, unit: int, stuff: int) -> FloatArray:
+    """Return the density of a liquid over that of a body [1], shape (T,); infinite for what may hold air."""
+    particles = observation.log.particles
+    own = particles.stuff == stuff
+    density = float(particles.mass[own].sum() / max(particles.volume[own].sum(), 1e-12))
+    found = np.full(observation.tick_count, np.inf)
+    for shape in observation.of(rigid_shapes):
+        if shape.body == unit and shape.solids and not shape.is_hollow:
+            low, high = shape.bounds()
+            displaced = float(np.prod(high - low) * _points(shape)[1].mean()) * density
+            found = np.where(shape.during, displaced / np.maximum(observation.mass(unit), 1e-12), found)
+    return found
 
 
 def _vertical_speed(observation: Observation, unit: int) -> FloatArray:
