@@ -83,7 +83,7 @@ def test_a_kind_and_a_liquid_push_the_same_body() -> None:
 
 
 def test_a_push_goes_on_when_the_model_is_rebuilt() -> None:
-    log = lifted(BLOCK + ":egg1 a :Egg ; :x 0.3 ; :z 0.3 . ", Lifter("b", 0.9), duration=0.4)
+    log = lifted(BLOCK + ":egg1 a :Egg ; :x 1.5 ; :z 0.3 . ", Lifter("b", 0.9), duration=0.4)
     split = np.flatnonzero((log.carrier[1:] != log.carrier[:-1]).any(axis=1))
     assert 200 < split[0] < 350
     pair = sorted((log.index("floor"), log.index("b")))

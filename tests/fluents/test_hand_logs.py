@@ -56,7 +56,7 @@ def test_closing_carries_the_commanded_level_of_the_grasp() -> None:
     assert times(timeline, "openingGripper(rightGripper)") == [(0.8, 0.9)]
     (closing,) = timeline.select(type="closingGripper")
     assert closing.evidence["level"] == "force7"
-    assert closing.evidence["force"] == force[299]
+    assert closing.evidence["force"] == pytest.approx(force[299], rel=1e-11)
     assert "level" not in timeline.select(type="openingGripper")[0].evidence
     assert times(timeline, "grasping(rightGripper,egg1,force7)") == [(0.05, 0.32)]
     assert times(timeline, "releasing(rightGripper)") == [(0.8, 0.9)]

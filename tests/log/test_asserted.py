@@ -57,13 +57,13 @@ def test_what_is_set_down_again_is_on_it_again(first: tuple[Fact, ...]) -> None:
     assert asked.ask("holds(on(egg1, table1), 2.0-3.0)")
 
 
-def test_on_is_supports_the_other_way_round_of_all_that_is_borne() -> None:
+def test_on_is_supports_the_other_way_round_of_what_it_is_asserted_of() -> None:
     others = (
         replace(TABLE, args=("table1", "cup1"), evidence={"share": 1.0}),
         replace(AGAIN, args=("cup1", "egg1"), evidence={"share": 0.4}),
     )
     asked = timeline(ON, TABLE, *others)
-    borne = "findall(on(X, Y)-T, holds(supports(Y, X), T), L)"
+    borne = "findall(on(egg1, Y)-T, holds(supports(Y, egg1), T), L)"
     assert asked.ask(borne) == asked.ask("findall(on(X, Y)-T, holds(on(X, Y), T), L)")
     assert asked.ask("evidence(on(egg1, cup1), T, share, S)") == asked.ask("T = 2.0-3.0, S = 0.4")
     # Of a log of which no situation speaks, nothing is on anything.

@@ -33,7 +33,7 @@ def recognize(log: Log, *, domain: Domain | None = None) -> Timeline:
     observation = observe(log)
     found = [each for grounding in GROUNDINGS for each in grounding(observation)]
     facts: list[Fact] = [_rounded(each) for each in found if isinstance(each, Fact)]
-    nearly = [each.fact for each in found if isinstance(each, NearMiss)]
+    nearly = [_rounded(each.fact) for each in found if isinstance(each, NearMiss)]
     for kind, name, count in dict.fromkeys((fact.kind, fact.type, len(fact.args)) for fact in (*facts, *nearly)):
         check_declared(kind, name, count)
     facts += action_facts(observation)

@@ -15,17 +15,19 @@ BY = {"by": "situation"}
 def with_asserted(timeline: Timeline) -> tuple[Fact, ...]:
     """Return the facts of a timeline with what its situation asserts, in order of time.
 
-    A relation that a fluent shows is so whenever the fluent holds, of whatever the situation speaks or not: what is set
-    down again is on it again. What is asserted is so from the start: up to the end of the first stretch of it; or, if
-    it is not seen before, until its thing falls, or is borne or held by another in its place; else to the end.
+    A relation that a fluent shows is so of what the situation asserts it, whenever the fluent holds, with whatever:
+    what is set down again is on it again. What is asserted is so from the start: up to the end of the first stretch of
+    it; or, if it is not seen before, until its thing falls, or is borne or held by another in its place; else to the
+    end.
     """
     told = {relation for relation, _, _ in timeline.domain.relations}
+    subjects = {(relation, subject) for relation, subject, _ in timeline.domain.relations}
     inverses = {SHOWN_AS[relation]: relation for relation in sorted(told & SHOWN_AS.keys())}
     facts = list(timeline.facts)
     facts += [
         replace(fact, type=inverses[fact.type], args=fact.args[::-1])
         for fact in timeline.facts
-        if fact.kind == "fluent" and fact.type in inverses
+        if fact.kind == "fluent" and fact.type in inverses and (inverses[fact.type], fact.args[-1]) in subjects
     ]
     for relation, subject, other in timeline.domain.relations:
         term = (relation, (subject, other))
