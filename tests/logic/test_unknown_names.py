@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import importlib.util
 from collections.abc import Iterator
+from itertools import permutations
 from pathlib import Path
 
 import pytest
@@ -429,3 +430,45 @@ def test_an_instant_and_the_ends_of_an_interval_are_compared(session: Session) -
     assert session.ask(RUN1, "T = 1.0, holds(broken(egg1), T), T > 0.5")
     assert session.ask(RUN1, "member(T, [0.1, 1.0]), holds(broken(egg1), T), T > 0.5") == [{"T": 1.0}]
     assert session.ask(RUN1, "holds(broken(egg1), T), T = S-E, S < 1, E > 1")
+
+
+@pytest.mark.parametrize(
+    "goal",
+    [
+        "objOf(F, egg1), fluentT(F, broken), holds(F, T)",
+        "eventT(F, grasping), objOf(F, egg1), \\+ holds(F, _)",
+        "evidence(F, T, N, _V), holds(F, T)",
+        "objOf(F, egg1), (holds(F, T) ; occurs(F, T))",
+        "ongoing(F), holds(F, T) ; holds(F, T)",
+        "evidence(F, T, N, _V), fluentT(F, broken)",
+        "argsOf(F, A), functor(F, N, _), fluentT(G, N)",
+        "instance_of(egg1, C), \\+ has_part(C, _)",
+        "evidence(_, _, outcome, V), \\+ value(V, mass, _)",
+        "evidence(_, _, N, _V), \\+ value(_, N, _)",
+        "evidence(_, _, _N, V), \\+ value(_, mass, V)",
+        "fact(_, _, N, _, _, _), \\+ instance_of(_, N)",
+    ],
+)
+def test_what_a_goal_finds_is_no_name_that_is_wrong(session: Session, goal: str) -> None:
+    assert session.ask(RUN1, goal)
+
+
+@pytest.mark.filterwarnings("ignore::prolepsis.terms.errors.Note")
+@pytest.mark.parametrize(
+    ("goals", "count"),
+    [
+        (("objOf(F, egg1)", "holds(F, T)"), 2),
+        (("evidence(F, T, _N, _V)", "occurs(F, T)"), 2),
+        (("fluentT(F, broken)", "holds(F, T)", "objOf(F, egg1)"), 1),
+        (("ongoing(F)", "holds(F, T)"), 1),
+    ],
+)
+def test_the_order_of_goals_makes_no_error(session: Session, goals: tuple[str, ...], count: int) -> None:
+    for order in permutations(goals):
+        assert len(session.ask(RUN1, ", ".join(order))) == count
+
+
+@pytest.mark.parametrize("goal", ["holds(F, T), occurs(F, T)", "fluentT(F, broken), occurs(F, T)"])
+def test_no_says_that_nothing_is_fluent_and_event(session: Session, goal: str) -> None:
+    with pytest.warns(Note, match="^no, but F stands for a fluent, and for an event, and nothing is both"):
+        assert session.ask(RUN1, goal) == []

@@ -36,7 +36,8 @@ def meaning_notes(read: str, goal: str, duration: float, answers: Sequence[Mappi
                 told.append(f"no, but nothing gives {text} the value that == compares; = gives it one, and is computes")
         elif kind == "both":
             if not answers:
-                told.append(f"no, but {text} stands for a fluent or event, and for {a_kind(name)}, and nothing is both")
+                fact = "fluent" if name == "event" else "fluent or event"
+                told.append(f"no, but {text} stands for a {fact}, and for {a_kind(name)}, and nothing is both")
         elif kind == "collected":
             told.append(f"{text} is collected, and stands in no goal that gives it a value")
         elif kind != "time":

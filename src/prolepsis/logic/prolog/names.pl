@@ -74,12 +74,31 @@ check_made(Kind, Name, Arity) :-
 
 %!  check_found_nothing(+Goal) is failure.
 %
-%   Fail, once what Goal names is sure to be known.
+%   Fail, once what Goal names is sure to be known. What is known as something else, the query has found, or it was told
+%   of before the query ran.
 
 check_found_nothing(Goal) :-
-    forall(( argument(Goal, Kind, Argument), nonvar(Argument) ), check_name(Kind, Argument)),
+    forall(( argument(Goal, Kind, Argument), nonvar(Argument), \+ accepts(Kind, Argument), \+ found(Argument) ),
+           check_name(Kind, Argument)),
     forall(argument(Goal, Kind, Argument), check_arity(Kind, Argument)),
     fail.
+
+%   found(+Term): a query may find Term, as a fact, or as a name or value of some kind.
+
+found(Term) :-
+    compound(Term),
+    functor(Term, Name, Arity),
+    known_fact(fact, Name, Arity),
+    check_individuals(Arity, Term),
+    !.
+found(Name) :-
+    ( atom(Name) ; string(Name) ),
+    (   known_fact(fact, Name, 0)
+    ;   member(Kind, [individual, class, property, evidence, type(fact), unit, run]),
+        known(Kind, Name)
+    ;   stored_value_of(_, Name)
+    ),
+    !.
 
 %   A fact that occurs with other arguments only has not been asked for: an action has those that its plan gives it.
 

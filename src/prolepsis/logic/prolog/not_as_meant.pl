@@ -78,13 +78,17 @@ has(value(Of), Value) :- stored_value_of(Of, Value).
 
 %!  never_both(+Readings, +Variables, +Bindings, -Variable, -What) is nondet.
 %
-%   True if Variable, one of the Variables of the goal of Readings, stands for a fact, and for What, which no fact is.
+%   True if Variable, one of the Variables of the goal of Readings, stands for a fact, and for What, which no fact is, or no
+%   fluent.
 
 never_both(Readings, Variables, Bindings, Variable, What) :-
     member(Reading, Readings),
     variable(Reading, N, Kinds, _),
-    once(( member(Kind, Kinds), fact_kind(Kind) )),
-    once(( member(Other, Kinds), no_fact(Other, What) )),
+    (   subset([fluent, event], Kinds)
+    ->  What = event
+    ;   once(( member(Kind, Kinds), fact_kind(Kind) )),
+        once(( member(Other, Kinds), no_fact(Other, What) ))
+    ),
     nth0(N, Variables, Value),
     member(Variable=Same, Bindings),
     Same == Value.
