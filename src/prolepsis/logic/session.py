@@ -16,17 +16,12 @@ from functools import lru_cache
 from pathlib import Path
 
 from prolepsis.log.timeline import Timeline
-from prolepsis.logic.near_threshold import near_note
-from prolepsis.logic.not_as_meant import meaning_notes, uncomputed_note
-from prolepsis.logic.open_ends import open_note
-from prolepsis.logic.otherwise import otherwise_note
+from prolepsis.logic.notes import notes
 from prolepsis.logic.pasting import pasted
 from prolepsis.logic.process import ProcessLost, PrologProcess
 from prolepsis.logic.refusals import refusal, shown
 from prolepsis.logic.rules import read_rules, rule_refusal
 from prolepsis.logic.run_file import write_run
-from prolepsis.logic.unbreakable import unbreakable_note
-from prolepsis.logic.undone import undone_note
 from prolepsis.terms.answers import as_answer
 from prolepsis.terms.errors import GoalError, GoalLimitError, InputError, Note, brief
 from prolepsis.terms.reader import parse_term
@@ -178,18 +173,9 @@ class Session:
         if status == "cut":
             what = "a value is too large or too deep to be told whole; ... stands for the rest"
             warnings.warn(f"{what}: {shown(goal)}", Note, 3)
-        read, _, body = body.partition("\n")
+        read, denied, body = body.split("\n", 2)
         answers = _answers(body, time.monotonic() + time_limit + GRACE, goal)
-        notes = [
-            *meaning_notes(read, goal, timeline.duration, answers),
-            open_note(answers, open_ends, goal),
-            "" if answers else undone_note(timeline, goal),
-            "" if answers else unbreakable_note(timeline, goal),
-            "" if answers else otherwise_note(timeline, goal),
-            uncomputed_note(answers, goal),
-            near_note(timeline, answers, goal),
-        ]
-        for note in filter(None, notes):
+        for note in notes(timeline, goal, answers, read=read, open_ends=open_ends, denied=denied):
             warnings.warn(note, Note, 3)
         return answers
 

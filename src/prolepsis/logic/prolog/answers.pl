@@ -2,8 +2,9 @@
 
     A reply is lines: first "ok" ("cut" where a value was too large or deep to be told whole) and, after tabs, what still
     went on when the log ended and bears on the goal; or what went wrong. Then what may not have been meant, in threes: as it
-    stands, of what kind that is, and the name that was meant or the values that are told; the variables; and one line for
-    each distinct answer, with the values of the variables separated by tabs, as terms that can be read back.
+    stands, of what kind that is, and the name that was meant or the values that are told; then each "no" on which an answer
+    rests, with the same of it; the variables; and one line for each distinct answer, with the values of the variables
+    separated by tabs, as terms that can be read back.
 */
 
 :- module(answers,
@@ -17,6 +18,7 @@
 :- use_module(library(lists)).
 :- use_module(library(occurs)).
 :- use_module(library(solution_sequences)).
+:- use_module(denials).
 :- use_module(runs).
 :- use_module(guard).
 :- use_module(kinds).
@@ -44,14 +46,26 @@ answers(Run, Text, Limit, Seconds, Lines) :-
     pairs(Outer, Names, Values),
     nb_setval(prolepsis_cut, "ok"),
     nb_setval(prolepsis_told, 0),
-    call_with_time_limit(Seconds, answers(Run, Goal, Bindings, Values, Limit, Answers, Read)),
+    call_with_time_limit(Seconds, answers(Run, Goal, Bindings, Values, Limit, Answers, Read, Kept, Ordered)),
     nb_getval(prolepsis_cut, Status),
     open_ends(Run, Goal, Ends),
     atomic_list_concat([Status|Ends], '\t', First),
     atomic_list_concat(Read, '\t', Second),
+    ( Answers == [] -> Denied = [] ; denials(Run, Kept, Ordered, Denied) ),
+    maplist(told_of_denied(Run), Denied, Told),
+    atomic_list_concat(Told, '\x1D\', Third),
     atomic_list_concat(Names, '\t', Header),
     atomic_list_concat([Header|Answers], '\n', Body),
-    Lines = [First, "\n", Second, "\n", Body].
+    Lines = [First, "\n", Second, "\n", Third, "\n", Body].
+
+told_of_denied(Run, Goal, Told) :-
+    short_text(Goal, Text),
+    open_ends(Run, Goal, Ends),
+    readings(Goal, [], Readings),
+    not_as_meant(Run, Goal, [], Readings, [], Read),
+    atomic_list_concat([Text|Ends], '\t', First),
+    atomic_list_concat(Read, '\t', Second),
+    atomic_list_concat([First, Second], '\x1E\', Told).
 
 not_as_meant(Run, Goal, Bindings, Readings, Variables, Read) :-
     findall([Shown, Of, Text],
@@ -82,7 +96,7 @@ named_kind(name(Kind), Of) => Of = Kind.
 named_kind(value(Name), Of) => atom_concat('value of ', Name, Of).
 named_kind(Kind, Of) => Of = Kind.
 
-answers(Run, Goal, Bindings, Values, Limit, Answers, Read) :-
+answers(Run, Goal, Bindings, Values, Limit, Answers, Read, Kept, Ordered) :-
     check_goal(Goal),
     apart(Goal, Kept, Numbers),
     term_variables(Kept, Variables),
@@ -91,11 +105,11 @@ answers(Run, Goal, Bindings, Values, Limit, Answers, Read) :-
     known_run(Run, Module),
     as_kept(Module, Readings, KeptNumbers),
     maplist(becomes, Numbers, KeptNumbers),
-    found(Run, Kept, Values, Limit, Answers),
+    order_goal(Kept, Ordered),
+    found(Run, Ordered, Values, Limit, Answers),
     not_as_meant(Run, Goal, Bindings, Readings, Variables, Read).
 
-found(Run, Goal0, Values, Limit, Answers) :-
-    order_goal(Goal0, Goal),
+found(Run, Goal, Values, Limit, Answers) :-
     % Nothing that is permitted changes a fact; should it ever, snapshot/1 undoes it.
     snapshot(findall(Answer, limit(Limit, distinct(Answer, answer(Run, Goal, Values, Answer))), Answers)).
 
