@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -64,6 +65,21 @@ def test_project_saves_a_folder_that_can_be_asked(
     assert json.loads(answers[0])["T"].keys() == {"start", "end"}
     assert (out / "world.xml").read_text().startswith("<mujoco")
     assert main(["ask", str(out), "occurs(waiting(0.06), T)"]) == 0
+
+
+def test_project_says_when_the_plan_did_not_go_through(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "block.ttl").write_text(
+        "@prefix : <https://w3id.org/prolepsis#> .\n:floor a :Floor . :block1 a :Block ; :on :floor ; :length 0.04 ; "
+        ":width 0.04 ; :height 0.04 . :hand1 a :Gripper ; :pitch 90.0 ; :z 0.3 ; :opening 0.03 .",
+        encoding="utf-8",
+    )
+    scenario = tmp_path / "block.toml"
+    plan = "sequence([press(hand1, block1, floor, 5), wait(0.1)])"
+    scenario.write_text(f'situation = "block.ttl"\nplan = "{plan}"\nduration = 0.2\n', encoding="utf-8")
+    assert main(["project", str(scenario)]) == 0
+    told, summary = capfd.readouterr().out.splitlines()
+    assert re.fullmatch(r"the plan ended at [0-9.]+ s: pressing\(hand1,block1,floor,5\) was not_held \(.*\)", told)
+    assert summary.startswith("0.2 s simulated")
 
 
 def test_project_shows_progress_when_asked(short_drop: Path, capfd: pytest.CaptureFixture[str]) -> None:

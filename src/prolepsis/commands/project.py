@@ -32,12 +32,15 @@ def add_to(commands: Any) -> None:
 def run(given: argparse.Namespace) -> int:
     """Project and print the timeline's length; with ``--out``, also where it is."""
     chosen = settings(given.set)
+    from prolepsis.log.plan_end import plan_end_told
     from prolepsis.projection import project_into, read_scenario
 
     with progress_line(given.progress) as show:
         result, saved = project_into(read_scenario(given.scenario, chosen), given.out, show)
     warn_unchecked(result.timeline.domain.unchecked)
     facts = len(result.timeline.facts)
+    if ended := plan_end_told(result.timeline):
+        print(ended)
     where = f", saved in {saved}" if saved else "; give --out DIR to keep them"
     print(f"{result.log.duration:g} s simulated, {facts} facts recognized{where}")
     return 0

@@ -39,3 +39,5 @@ GOES_ON = frozenset[Outcome]({"done", "dropped", "crushed", "not_reached"})
 """After these, what follows in a sequence is done: the action has gone its way to the end. The others end it."""
 CARRYING = frozenset({"lift", "carry", "tilt", "bring", "hold"})
 """These move whatever the hand holds: by one that grips nothing they are ``not_held``, but go their way to the end."""
+CLOSING = frozenset({"close"})
+"""These close on whatever is there: on nothing they have ``missed``, but what follows is done."""

@@ -4,21 +4,25 @@ from __future__ import annotations
 
 import re
 
-from prolepsis.log.fact_types import event_of
-from prolepsis.log.outcomes import CARRYING, OUTCOMES
+from prolepsis.log.outcomes import OUTCOMES
+from prolepsis.log.plan_end import CARRYING_EVENTS, plan_end, plan_end_told, told
 from prolepsis.log.timeline import Timeline
+from prolepsis.logic.otherwise import subterms
 from prolepsis.logic.refusals import shown
-from prolepsis.terms.errors import brief
-from prolepsis.terms.terms import format_value
+from prolepsis.terms.errors import InputError
+from prolepsis.terms.reader import parse_term
+from prolepsis.terms.terms import Term, Value
 
 FINE = ("done", "dropped", "unfinished")
 """Outcomes of which nothing need be said here: what was let fall was done until then, what a log cuts off is told as an
 open end."""
-CARRYING_EVENTS = frozenset(event_of(verb) for verb in CARRYING)
-"""What a hand lost before it carried it is like what it let fall then."""
-
-REASON, MOST = 160, 3
-"""Characters of a reason that are told, and how many actions."""
+ASK_LOG = frozenset(
+    {"holds", "holds_at", "occurs", "ongoing", "near_miss", "evidence", "fact"}
+    | {"fluent", "fluentT", "event", "eventT", "argsOf", "objOf"}
+)
+"""Predicates that a plan that goes on may make true."""
+MOST = 3
+"""So many actions are told of."""
 
 
 def undone_note(timeline: Timeline, goal: str) -> str:
@@ -26,19 +30,35 @@ def undone_note(timeline: Timeline, goal: str) -> str:
 
     Args:
         timeline: What was asked.
-        goal: The goal as it was asked; an action bears on it if it names one of the action's things.
+        goal: The goal as it was asked; an action bears on it if it names one of the action's things, and one that
+            ended the plan on whatever it asks of the time from then on.
     """
+    ended = plan_end(timeline)
+    is_about = ended is not None and _asks_after(goal, ended[0])
     named = {*re.findall(r"\w+", goal)}
-    told: list[str] = []
+    found = [plan_end_told(timeline)] if is_about else []
     for fact in timeline.facts:
         outcome = fact.evidence.get("outcome")
         if (
             outcome in OUTCOMES
             and outcome not in FINE
             and not (outcome == "not_held" and fact.type in CARRYING_EVENTS)
+            and not (is_about and ended and fact in ended[1])
             and named & {each for each in fact.args if isinstance(each, str)}
         ):
-            reason = fact.evidence.get("reason")
-            why = f" ({brief(reason, REASON)})" if reason else ""
-            told.append(f"{brief(format_value(fact.term), REASON)} was {outcome}{why}")
-    return f"no, but {'; '.join(told[:MOST])}{' ...' if len(told) > MOST else ''}: {shown(goal)}" if told else ""
+            found.append(told(fact))
+    return f"no, but {'; '.join(found[:MOST])}{' ...' if len(found) > MOST else ''}: {shown(goal)}" if found else ""
+
+
+def _asks_after(goal: str, time: float) -> bool:
+    """Return whether a goal asks the log of what was, or may have been, after a time [s]."""
+    try:
+        parts = [*subterms(parse_term(goal))]
+    except (InputError, RecursionError):
+        return any(name in ASK_LOG for name in re.findall(r"\w+(?=\()", goal))
+    return any(_is_after(each, time) for each in parts if isinstance(each, Term) and each.functor in ASK_LOG)
+
+
+def _is_after(asked: Term, time: float) -> bool:
+    when: Value | None = asked.args[1] if len(asked.args) > 1 else None
+    return not isinstance(when, int | float) or when >= time
