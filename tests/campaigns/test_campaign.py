@@ -92,3 +92,17 @@ def test_a_sweep_tells_an_action_that_fell_short_by_its_outcome(tmp_path: Path) 
     )
     outcomes = sweep(tmp_path / "s.toml", {"H": [-0.1, -0.6]})
     assert [row.outcome for row in outcomes.rows] == ["done", "in_collision"]
+
+
+def test_a_sweep_tells_notes_with_the_run_that_they_are_about(
+    scenario: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    goal = "occurs(falling(egg1), 0.5)"
+    assert [row.notes for row in sweep(scenario, {"Time": [0.01, 0.02]}, ask="holds(broken(egg1), T)").rows] == [(), ()]
+    assert main(["sweep", str(scenario), "--over", "Time=0.01,0.02", "--ask", goal]) == 1
+    told = capfd.readouterr().err.splitlines()
+    assert [line.partition(": no, but ")[0] for line in told] == ["prolepsis: note: Time=0.01; Time=0.02"]
+    assert ".py" not in "".join(told)
+    assert main(["sweep", str(scenario), "--over", "Time=0.01,0.02", "--ask", goal, "--json"]) == 1
+    rows = [json.loads(line) for line in capfd.readouterr().out.splitlines()]
+    assert all("the log tells nothing of 0.5 s" in row["notes"][0] for row in rows)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
@@ -14,7 +15,7 @@ from prolepsis.campaigns.outcome import Grasp, judge_grasp
 from prolepsis.projection import Progress, project, read_scenario
 from prolepsis.scenario.scenario import Scenario
 from prolepsis.system.workers import Lost, carry_out
-from prolepsis.terms.errors import InputError, InvalidSimulationError, ProlepsisError, brief, error_line
+from prolepsis.terms.errors import InputError, InvalidSimulationError, Note, ProlepsisError, brief, error_line
 from prolepsis.terms.terms import Value
 
 WORKERS = 2
@@ -43,6 +44,8 @@ class Row:
     """Whether it was the physics that failed."""
     unexpected: str | None = None
     """Of a failure that nobody foresaw, where it happened as Python tells it, or what became of the process."""
+    notes: tuple[str, ...] = ()
+    """What should be known of the run and its answers, each once."""
     unchecked: str = ""
     """Why it was not decided whether its knowledge contradicts itself; empty if it does not."""
 
@@ -181,6 +184,17 @@ def _lost(values: dict[str, float | str], lost: Lost) -> Row:
 
 
 def _run(scenario: Scenario, values: dict[str, float | str], ask: str | None, limit: int | None) -> Row:
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", Note)
+        row = _row(scenario, values, ask, limit)
+    for each in caught:
+        if not issubclass(each.category, Note):
+            warnings.warn_explicit(each.message, each.category, each.filename, each.lineno)
+    notes = dict.fromkeys(str(each.message) for each in caught if issubclass(each.category, Note))
+    return replace(row, notes=tuple(notes))
+
+
+def _row(scenario: Scenario, values: dict[str, float | str], ask: str | None, limit: int | None) -> Row:
     try:
         result = project(scenario)
         answers = None if ask is None else result.ask(ask, limit)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 import sys
+import warnings
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from prolepsis.commands.output import (
@@ -16,7 +18,7 @@ from prolepsis.commands.output import (
     table,
     warn_unchecked,
 )
-from prolepsis.terms.errors import InputError
+from prolepsis.terms.errors import InputError, Note
 from prolepsis.terms.json_values import json_value
 
 if TYPE_CHECKING:
@@ -81,6 +83,8 @@ def run(given: argparse.Namespace) -> int:
         )
     print(as_json(outcomes) if given.json else report(outcomes))
     warn_unchecked(next((row.unchecked for row in outcomes.rows if row.unchecked), ""))
+    for note in notes_of(outcomes.rows):
+        warnings.warn(note, Note, stacklevel=2)
     if given.traceback:
         for row in outcomes.rows:
             if row.unexpected:
@@ -109,7 +113,7 @@ def report(outcomes: Outcomes) -> str:
     shown = lines[:1]
     for line, row in zip(lines[1:], outcomes.rows, strict=True):
         shown.append(line)
-        shown += [f"  {answer}" for answer in _notes(row)]
+        shown += [f"  {answer}" for answer in _told(row)]
     shown += [
         f"{each.below.outcome} -> {each.above.outcome}: {each.force:.3g} +-{(each.high - each.low) / 2:.2g} N "
         f"(between {each.low:.4g} and {each.high:.4g} N)"
@@ -121,7 +125,16 @@ def report(outcomes: Outcomes) -> str:
     return "\n".join(shown)
 
 
-def _notes(row: Row) -> list[str]:
+def notes_of(rows: Sequence[Row]) -> list[str]:
+    """Return the notes on the runs of a sweep, each with the values of the runs that it is about."""
+    about: dict[str, list[str]] = {}
+    for row in rows:
+        for note in row.notes:
+            about.setdefault(note, []).append(", ".join(f"{name}={value}" for name, value in row.values.items()))
+    return [f"{'; '.join(runs)}: {note}" for note, runs in about.items()]
+
+
+def _told(row: Row) -> list[str]:
     if row.error:
         return [row.error]
     if row.answers is None:
@@ -148,6 +161,8 @@ def _plain(row: Row) -> dict[str, Any]:
         }
     if row.answers is not None:
         result["answers"] = [{name: json_value(value) for name, value in answer.items()} for answer in row.answers]
+    if row.notes:
+        result["notes"] = list(row.notes)
     if row.error is not None:
         result["error"] = row.error
     return result
