@@ -1,14 +1,15 @@
-"""What is said of a "no" where the same is told otherwise: of two things the other way round, or by another number."""
+"""What is said of a "no" where the same is told otherwise: the other way round, by another number or other evidence."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Collection, Iterator
 
 from prolepsis.log.evidence_names import EVIDENCE_UNITS
 from prolepsis.log.fact_types import SYMMETRIC
 from prolepsis.log.timeline import Timeline
 from prolepsis.logic.refusals import shown
-from prolepsis.terms.errors import InputError, brief
+from prolepsis.terms.errors import InputError, brief, brief_list
 from prolepsis.terms.reader import parse_term
 from prolepsis.terms.terms import Term, Value, format_atom, format_value
 
@@ -23,13 +24,22 @@ def otherwise_note(timeline: Timeline, goal: str) -> str:
 
     Args:
         timeline: What was asked.
-        goal: The goal as it was asked; what it says of two things, or with a number, is looked up otherwise.
+        goal: The goal as it was asked; what it says of two things, numbers and evidence is looked up otherwise.
     """
     try:
         asked = [each for each in subterms(parse_term(goal)) if isinstance(each, Term)]
     except (InputError, RecursionError):
         return ""
-    told = [told for each in asked for told in (*_other_way_round(timeline, each), *_other_number(timeline, each))]
+    words = {*re.findall(r"\w+", goal)}
+    told = [
+        told
+        for each in asked
+        for told in (
+            *_other_way_round(timeline, each),
+            *_other_number(timeline, each),
+            *_other_evidence(timeline, each, words),
+        )
+    ]
     told = list(dict.fromkeys(told))
     return f"no, but {'; '.join(told[:MOST])}{' ...' if len(told) > MOST else ''}: {shown(goal)}" if told else ""
 
@@ -66,6 +76,31 @@ def _other_number(timeline: Timeline, asked: Term) -> Iterator[str]:
         if isinstance(number, int | float) and _meant(given, number):
             of_unit = f" {unit}" if unit not in ("", "1") else ""
             yield f"{format_atom(name)} of {brief(format_value(thing))} is {number:.6g}{of_unit}"
+
+
+def _other_evidence(timeline: Timeline, asked: Term, words: Collection[str]) -> Iterator[str]:
+    """Yield what the facts of a type have, asked for here or elsewhere in the goal, where none has such evidence."""
+    match asked:
+        case Term(functor="evidence", args=(Term(functor=type_), _, str(name), _)):
+            types = {type_}
+        case Term(functor="evidence", args=(str(type_), _, str(name), _)):
+            types = {type_}
+        case Term(functor="evidence", args=(_, _, str(name), _)):
+            types = {*words}
+        case _:
+            return
+    for type_ in sorted(types & {fact.type for fact in timeline.facts}):
+        known = {each for fact in timeline.facts if fact.type == type_ for each in fact.evidence}
+        if name not in known:
+            yield f"{type_} has no {format_atom(name)} here; {_evidence_told(name, known)}"
+
+
+def _evidence_told(name: str, known: set[str]) -> str:
+    if not known:
+        return "nothing was measured of it"
+    # What is called alike comes first.
+    ranked = sorted(known, key=lambda each: (name not in each and each not in name, each))
+    return f"its evidence is {brief_list(ranked)}"
 
 
 def _but_for_numbers(value: Value) -> Value:
