@@ -84,7 +84,7 @@ not_as_meant(Run, Goal, Bindings, Readings, Variables, Read) :-
                 short_text(Value, Shown),
                 findall(Each, ( member(One, Told), format(atom(Each), '~q', [One]) ), All),
                 atomic_list_concat(All, '\x1F\', Text)
-            ;   outside(Goal, Run, Shown),
+            ;   outside(Goal, Readings, Run, Shown),
                 Of = time,
                 Text = ''
             ),

@@ -6,7 +6,7 @@
             told_by_none/4,             % +Readings, -Kind, -Value, -Told
             never_both/5,               % +Readings, +Variables, +Bindings, -Variable, -What
             given_by_none/4,            % +Goal, +Bindings, -Variable, -How
-            outside/3                   % +Goal, +Run, -Instant
+            outside/4                   % +Goal, +Readings, +Run, -Instant
           ]).
 :- use_module(library(lists)).
 :- use_module(library(occurs)).
@@ -139,14 +139,25 @@ folded(Name, Folded) :-
     atomic_list_concat(Words, Joined),
     downcase_atom(Joined, Folded).
 
-%!  outside(+Goal, +Run, -Instant) is nondet.
+%!  outside(+Goal, +Readings, +Run, -Instant) is nondet.
 %
-%   True if Goal asks of an Instant at which the log of Run does not tell anything.
+%   True if Goal asks of an Instant, or an interval from or to that, at which the log of Run does not tell anything.
 
-outside(Goal, Run, Instant) :-
+outside(Goal, Readings, Run, Instant) :-
     \+ ( within(Goal, Inner), functor(Inner, in, 2) ),
     known_run(Run, Module),
     Module:lasts(Last),
-    named(Goal, time, Instant),
+    asked_at(Goal, Readings, Instant),
     number(Instant),
     ( Instant < 0 ; Instant > Last ).
+
+asked_at(Goal, _, Instant) :-
+    named(Goal, time, Interval),
+    nonvar(Interval),
+    Interval = Start-End,
+    ( Instant = Start ; Instant = End ).
+asked_at(_, Readings, Instant) :-
+    member(Reading, Readings),
+    class(Reading, Kinds, Constants, _),
+    ( memberchk(time, Kinds) ; memberchk(instant, Kinds) ),
+    member(Instant, Constants).
