@@ -193,7 +193,8 @@ def test_what_stands_beside_is_not_between() -> None:
 def test_no_shard_goes_through_the_bottom_of_a_bowl(height: float) -> None:
     bowl = ":bowl1 a :Bowl ; :on :table1 ; :radius 0.12 ; :height 0.08 . "
     log = run(TABLE + bowl + f":egg1 a :Egg ; :z {height} . ", duration=math.sqrt(2 * (height - 0.72) / 9.81) + 0.3)
-    shards = [i for i in np.unique(log.carrier[-1]).tolist() if "Piece" in log.things[i].roles]
+    bodies: list[int] = np.unique(log.carrier[-1]).tolist()
+    shards = [i for i in bodies if "Piece" in log.things[i].roles]
     assert len(shards) > 5
     # The table is 0.7 m high, and the bowl as thick as 2 mm.
     assert (log.poses[-1, shards, 2] > 0.705).all()
