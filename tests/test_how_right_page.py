@@ -1,13 +1,54 @@
-"""The page "How right is it?" gives the case that is farthest off, and tells what falls short."""
+"""The page "How right is it?" has all comparisons, and tells what falls short."""
 
 from __future__ import annotations
 
+import ast
 import contextlib
+import re
+from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
 from tests.comparing import PROPERTY, Row, comparing
-from tools.how_right import page
+from tools.how_right import PAGE, files, page
+
+ROOT = Path(__file__).parents[1]
+
+
+def compared(file: str) -> Iterator[str]:
+    """Yield what a file of tests compares, as the calls of ``compare`` say."""
+    for function in ast.walk(ast.parse((ROOT / file).read_text(encoding="utf-8"))):
+        if not isinstance(function, ast.FunctionDef):
+            continue
+        known: dict[str, str] = {}
+        for node in ast.walk(function):
+            match node:
+                case ast.Assign(targets=[ast.Tuple(elts=names)], value=ast.Tuple(elts=values)):
+                    pairs = zip(names, values, strict=True)
+                    known |= {name.id: value.value for name, value in pairs if _is_text(name, value)}  # type: ignore[attr-defined]
+                case ast.Assign(targets=[ast.Name(id=name)], value=ast.Constant(value=str(text))):
+                    known[name] = text
+                case _:
+                    pass
+        for node in ast.walk(function):
+            match node:
+                case ast.Call(func=ast.Name(id="compare"), args=[ast.Constant(value=str(text)), *_]):
+                    yield text
+                case ast.Call(func=ast.Name(id="compare"), args=[ast.Name(id=name), *_]):
+                    yield known[name]
+                case _:
+                    pass
+
+
+def _is_text(name: ast.expr, value: ast.expr) -> bool:
+    return isinstance(name, ast.Name) and isinstance(value, ast.Constant) and isinstance(value.value, str)
+
+
+@pytest.mark.parametrize("file", files())
+def test_the_page_has_each_comparison(file: str) -> None:
+    text = PAGE.read_text(encoding="utf-8")
+    assert {*compared(file)} <= {*re.findall(r"^\| (.*?) \|", text, re.MULTILINE)}
 
 
 def row(measured: float, expected: float, **more: Any) -> Row:
