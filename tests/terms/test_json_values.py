@@ -17,3 +17,9 @@ def test_answers_can_be_written_as_json() -> None:
         {"F": "broken(egg1)", "T": when, "L": ["broken(egg1)", 1, when]}
     ]
     assert prolepsis.json_value(prolepsis.parse_term("a - b")) == "a-b"
+
+
+def test_a_number_that_json_has_no_sign_for_is_the_text_that_prolog_writes() -> None:
+    answers = make_timeline([], dt=1e-3, duration=2.0).ask("X is inf, Y is nan, Z = [X, 1.5]")
+    text = json.dumps(prolepsis.json_value(answers), allow_nan=False)
+    assert json.loads(text) == [{"X": "1.0Inf", "Y": "1.5NaN", "Z": ["1.0Inf", 1.5]}]
