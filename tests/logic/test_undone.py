@@ -27,6 +27,15 @@ def test_no_proves_nothing_where_an_action_fell_short(
     assert not recwarn.list
 
 
+@pytest.mark.parametrize("goal", ["has_part(yolk1, egg1)", "value(egg1, mass, 3.0)", "subclass_of(egg1, egg1)"])
+def test_what_is_known_of_a_thing_from_the_start_waits_for_no_action(goal: str) -> None:
+    squeezed = Fact(
+        kind="event", type="squeezing", args=("hand1", "egg1"), start=0.0, end=1.0, evidence={"outcome": "crushed"}
+    )
+    domain = Domain(instances=(("egg1", "Egg"), ("yolk1", "EggYolk"), ("egg1", "egg1")))
+    assert make_timeline([squeezed], dt=1e-3, duration=2.0, domain=domain).ask(f"{goal}, fail") == []
+
+
 def _run(*actions: tuple[str, tuple[str | float, ...], float, float, str]) -> Timeline:
     facts = [
         Fact(kind="event", type=type_, args=args, start=start, end=end, evidence={"outcome": outcome})
