@@ -392,6 +392,15 @@ def test_a_known_name_with_a_capital_is_told_to_be_a_variable(session: Session, 
         session.ask(RUN1, goal)
 
 
+@pytest.mark.parametrize("goal", ["value(egg1, X, Y)", "instance_of(egg1, O), fail", "evidence(F, T, X, 44.0)"])
+def test_one_letter_is_how_variables_are_written(goal: str) -> None:
+    session = Session()
+    domain = Domain(instances=(("egg1", "Egg"), ("egg1", "o")), values=(("egg1", "x", 1.0),))
+    fact = Fact(kind="fluent", type="broken", args=("egg1",), start=0.5, end=2.0, evidence={"force": 44.0, "x": 1.0})
+    session.ask(make_timeline([fact], dt=0.001, duration=4.0, domain=domain), goal)
+    session.close()
+
+
 @pytest.mark.parametrize("goal", ["evidence(F, T, by, {})", "evidence(F, T, by, V), V == {}"])
 def test_no_is_not_all_that_is_said_of_a_text_that_nothing_has(session: Session, goal: str) -> None:
     with pytest.warns(Note, match="no, but no value of by is situatio here; did you mean situation?"):

@@ -19,10 +19,12 @@
 %!  read_as_variable(+Goal, +Bindings, -Variable, -Kind, -Name) is nondet.
 %
 %   True if Variable stands only once in Goal, where a Kind is named, and is spelt as the Name of one but for capitals.
+%   One letter is how variables are written.
 
 read_as_variable(Goal, Bindings, Variable, Kind, Name) :-
     member(Variable=Value, Bindings),
     var(Value),
+    \+ atom_length(Variable, 1),
     occurrences_of_var(Value, Goal, 1),
     once(( named(Goal, Kind, Argument), Argument == Value )),
     what(Kind),
@@ -32,7 +34,7 @@ read_as_variable(Goal, Bindings, Variable, Kind, Name) :-
 %!  individual_as_variable(+Readings, +Variables, +Bindings, -Variable, -Name) is nondet.
 %
 %   True if Variable, one of the Variables of the goal of Readings, stands for any individual, is compared with none, and is
-%   spelt as the individual Name but for capitals. One letter is how variables are written.
+%   spelt as the individual Name but for capitals.
 
 individual_as_variable(Readings, Variables, Bindings, Variable, Name) :-
     member(Reading, Readings),
