@@ -32,7 +32,14 @@ def timeline() -> Timeline:
             end=0.2,
             evidence={"outcome": "done"},
         ),
-        Fact(kind="fluent", type="glued", args=("knob", "drawer", "left", 3), start=0.0, end=1.0),
+        Fact(
+            kind="fluent",
+            type="glued",
+            args=("knob", "drawer", "left", 3),
+            start=0.0,
+            end=1.0,
+            evidence={"made_with": "white glue"},
+        ),
         Fact(kind="event", type="snapping_off", args=("knob",), start=1.0, end=1.1, evidence={"crackle": 2.0}),
     ]
     domain = Domain(
@@ -68,6 +75,9 @@ def session() -> Iterator[Session]:
         ("occurs(faling(X), T)", r"no event faling/1; did you mean falling\(X\)"),
         ("occurs(xyzzy(X), T)", "^no event xyzzy/1; known: absorbing"),
         ("holds(broken(egg-1), T)", "no individual named egg-1"),
+        # What was measured of a thing is no thing.
+        ("holds(broken(situation), T)", "no individual named situation .*; known: [^;]*$"),
+        ("value('white glue', mass, M)", "no individual named 'white glue'"),
         ("holds(broken(f(X)), T)", r"no individual named f\(_\)"),
         ("occurs(dropped(X), T)", r"^no event dropped/1; did you mean dropping\(X, Y\)\?$"),
         ('holds("broken(egg1)", T)', r"a fact is a term and no text: write broken\(egg1\)$"),

@@ -186,7 +186,6 @@ individual(Run, Name) :-
     table_row(_, Run, Type, _, _, Term, _, _, _),
     compound(Term),
     arg(_, Term, Name).
-individual(Run, Name) :- Run:proof(_, Of, Name), \+ allowed_value(Of, _).
 
 %!  made_by_rule(?Name, ?Arity) is nondet.
 %
