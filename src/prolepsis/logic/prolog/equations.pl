@@ -89,6 +89,9 @@ stands(?, Argument, _) --> !, ( { var(Argument) } -> [kind(Argument, any)] ; [] 
 stands(number, Expression, _) --> !,
     { term_variables(Expression, Variables) },
     of_kind(Variables, number).
+stands(found(Shape), Argument, Goal) --> !,
+    stands(number, Argument, Goal),
+    ( { var(Argument) } -> stands(Shape, Argument, Goal) ; stands(Shape, Class, Goal), [kind(Class, computed)] ).
 stands(value(N), Argument, Goal) --> !,
     { arg(N, Goal, Of) },
     ( { atom(Of) } -> [kind(Argument, value(Of))] ; [kind(Argument, value)] ).

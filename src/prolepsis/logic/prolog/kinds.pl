@@ -261,6 +261,8 @@ spreads(Equations, State, I, Kind) :-
 
 list_of(individuals, individual).
 list_of(arguments, argument).
+% An argument may be a displacement.
+list_of(individual, argument).
 
 kind_in(State, '$class'(F), Of) :-
     root(F, State, _, class(Kinds, _, _, _)),

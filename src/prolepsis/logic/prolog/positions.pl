@@ -62,7 +62,8 @@ interval_relation(equals).
 %
 %   What the arguments of Prolog's own predicates have in common: the same variable stands for things of one kind, list(K)
 %   for a list of them, called(Ks) for a goal that is called with them; number is what is computed with, computed what is
-%   found so, and ? any term. Where there are several of a name, the first argument tells which.
+%   found so, found(K) a number that is compared and stays as it is, and ? any term. Where there are several of a name, the
+%   first argument tells which.
 
 links(K = K).
 links(K \= K).
@@ -91,11 +92,11 @@ links(findall(K, ?, list(K))).
 links(findall(K, ?, list(K), list(K))).
 links(bagof(K, ?, list(K))).
 links(setof(K, ?, list(K))).
-links(aggregate_all(max(number), ?, computed)).
-links(aggregate_all(min(number), ?, computed)).
+links(aggregate_all(max(found(K)), ?, K)).
+links(aggregate_all(min(found(K)), ?, K)).
 links(aggregate_all(sum(number), ?, computed)).
-links(aggregate_all(max(number, K), ?, max(computed, K))).
-links(aggregate_all(min(number, K), ?, min(computed, K))).
+links(aggregate_all(max(found(N), K), ?, max(N, K))).
+links(aggregate_all(min(found(N), K), ?, min(N, K))).
 links(aggregate_all(bag(K), ?, list(K))).
 links(aggregate_all(set(K), ?, list(K))).
 links(call_nth(?, computed)).
@@ -112,8 +113,8 @@ links(prefix(list(K), list(K))).
 links(last(list(K), K)).
 links(length(?, computed)).
 links(list_to_set(list(K), list(K))).
-links(max_list(list(number), computed)).
-links(min_list(list(number), computed)).
+links(max_list(list(found(K)), K)).
+links(min_list(list(found(K)), K)).
 links(sum_list(list(number), computed)).
 links(max_member(K, list(K))).
 links(min_member(K, list(K))).

@@ -125,6 +125,8 @@ add_row(event(Term0, Start, End), Module, Id0, Id) =>
     assertz(Module:event(Type, First, Second, Term, Start, End, Id)).
 add_row(proof(Name, Value), Module, Id0, Id) =>
     Id = Id0,
+    % A level is told among the arguments.
+    ( Name == level -> kept_term(Module, level(Value), _) ; true ),
     assertz(Module:proof(Id, Name, Value)).
 add_row(near(Term0, Start, End, Margin), Module, Id0, Id) =>
     Id = Id0,
@@ -172,17 +174,15 @@ spelt(Module, Number, Kept) :-
 
 %!  spelt_term(+Module, +Term, -Kept) is det.
 %
-%   The same of all numbers in Term.
+%   The same of a Term that is a number, or of all in it.
 
+spelt_term(Module, Term, Kept), number(Term) => spelt(Module, Term, Kept).
 spelt_term(Module, Term, Kept), compound(Term), once(number_in(Term, _)) =>
     compound_name_arguments(Term, Name, Arguments),
-    maplist(spelt_part(Module), Arguments, Parts),
+    maplist(spelt_term(Module), Arguments, Parts),
     compound_name_arguments(Kept, Name, Parts).
 spelt_term(_, Term, Kept) =>
     Kept = Term.
-
-spelt_part(Module, Part, Kept), number(Part) => spelt(Module, Part, Kept).
-spelt_part(Module, Part, Kept) => spelt_term(Module, Part, Kept).
 
 %!  equal_value(?Value, +Kept) is semidet.
 %

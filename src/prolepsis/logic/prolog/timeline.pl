@@ -224,7 +224,7 @@ plain_args(Term, Arguments) :-
 
 levels(Term, Time, Run, Levels) :-
     findall(Level,
-            ( instance(Term, Time, Run, Id), Run:proof(Id, level, Level) ),
+            ( instance(Term, Time, Run, Id), Run:proof(Id, level, Level0), spelt_term(Run, Level0, Level) ),
             All),
     list_to_set(All, Levels).
 
