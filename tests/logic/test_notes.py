@@ -33,6 +33,9 @@ RUN = make_timeline(
     [
         ("holds(contains(liq1, cup1), T)", r"contains\(cup1,liq1\) is so, the other way round"),
         ("holds(F, T), F = contains(liq1, cup1)", r"contains\(cup1,liq1\) is so"),
+        ("occurs(E, T), E = colliding(cup1, egg1)", r"colliding\(egg1,cup1\) is so, the other way round"),
+        ("occurs(E, T), memberchk(E, [colliding(cup1, egg1)])", r"colliding\(egg1,cup1\) is so"),
+        ("findall(E, occurs(E, _), L), memberchk(colliding(cup1, egg1), L)", r"colliding\(egg1,cup1\) is so"),
         ("has_part(eggshell1, egg1)", r"has_part\(egg1,eggshell1\) is so"),
         ("value(egg1, mass, 58)", r"mass of egg1 is 0\.0582 kg"),
         ("value(egg1, mass, 0.06)", r"mass of egg1 is 0\.0582 kg"),

@@ -15,6 +15,8 @@ from prolepsis.terms.terms import Term, Value, format_atom, format_value
 
 MOST = 3
 """So much is told."""
+EITHER_WAY = frozenset({"holds", "holds_at", "occurs", "evidence"})
+"""Predicates that find the two things of a symmetric type in either order; of an answer they have one."""
 OTHER_UNIT = 10.0
 """A number that is so many times another may be in another unit [1]."""
 
@@ -31,11 +33,12 @@ def otherwise_note(timeline: Timeline, goal: str) -> str:
     except (InputError, RecursionError):
         return ""
     words = {*re.findall(r"\w+", goal)}
+    either_way = [part for each in asked if each.functor in EITHER_WAY for part in each.args]
     told = [
         told
         for each in asked
         for told in (
-            *_other_way_round(timeline, each),
+            *_other_way_round(timeline, each, each in either_way),
             *_other_number(timeline, each),
             *_other_evidence(timeline, each, words),
         )
@@ -51,8 +54,11 @@ def subterms(value: Value) -> Iterator[Value]:
         yield from subterms(each)
 
 
-def _other_way_round(timeline: Timeline, asked: Term) -> Iterator[str]:
-    if len(asked.args) != 2 or not all(isinstance(each, str) for each in asked.args) or asked.functor in SYMMETRIC:
+def _other_way_round(timeline: Timeline, asked: Term, either_way: bool) -> Iterator[str]:
+    """Yield what is so with the two arguments in the other order, unless it is of a type that was found either way."""
+    if len(asked.args) != 2 or not all(isinstance(each, str) for each in asked.args):
+        return
+    if either_way and asked.functor in SYMMETRIC:
         return
     parts = [("has_part", row) for row in timeline.domain.parts] if asked.functor == "has_part" else []
     facts = {*parts, *((fact.type, fact.args) for fact in timeline.facts if fact.type == asked.functor)}
