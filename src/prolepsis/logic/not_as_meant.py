@@ -38,6 +38,9 @@ def meaning_notes(read: str, goal: str, duration: float, answers: Sequence[Mappi
             if not answers:
                 fact = "fluent" if name == "event" else "fluent or event"
                 told.append(f"no, but {text} stands for a {fact}, and for {a_kind(name)}, and nothing is both")
+        elif kind == "spelling":
+            if not answers:
+                told.append(f"no, but a type that is found is told as {name}, not {text}")
         elif kind == "collected":
             told.append(f"{text} is collected, and stands in no goal that gives it a value")
         elif kind != "time":

@@ -15,7 +15,7 @@ from prolepsis.terms.terms import Term, Value, format_atom, format_value
 
 MOST = 3
 """So much is told."""
-EITHER_WAY = frozenset({"holds", "holds_at", "occurs", "evidence"})
+EITHER_WAY = frozenset({"holds", "holds_at", "occurs", "evidence", "ongoing"})
 """Predicates that find the two things of a symmetric type in either order; of an answer they have one."""
 OTHER_UNIT = 10.0
 """A number that is so many times another may be in another unit [1]."""

@@ -79,6 +79,10 @@ not_as_meant(Run, Goal, Bindings, Readings, Variables, Read) :-
                 Of = both
             ;   given_by_none(Goal, Bindings, Shown, Of),
                 Text = ''
+            ;   spelt_otherwise(Readings, Given, Name),
+                Of = spelling,
+                short_text(Given, Shown),
+                short_text(Name, Text)
             ;   told_by_none(Readings, What, Value, Told),
                 named_kind(What, Of),
                 short_text(Value, Shown),

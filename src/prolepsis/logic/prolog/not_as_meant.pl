@@ -3,6 +3,7 @@
 :- module(not_as_meant,
           [ read_as_variable/5,         % +Goal, +Bindings, -Variable, -Kind, -Name
             individual_as_variable/5,   % +Readings, +Variables, +Bindings, -Variable, -Name
+            spelt_otherwise/3,          % +Readings, -Text, -Name
             told_by_none/4,             % +Readings, -Kind, -Value, -Told
             never_both/5,               % +Readings, +Variables, +Bindings, -Variable, -What
             given_by_none/4,            % +Goal, +Bindings, -Variable, -How
@@ -14,6 +15,7 @@
 :- use_module(known).
 :- use_module(positions).
 :- use_module(runs).
+:- use_module(timeline, [same_type/2]).
 :- use_module(vocabulary).
 
 %!  read_as_variable(+Goal, +Bindings, -Variable, -Kind, -Name) is nondet.
@@ -52,6 +54,20 @@ small(Name, Small) :-
     sub_atom(Name, 1, Rest, 0, More),
     downcase_atom(First, Lower),
     atom_concat(Lower, More, Small).
+
+%!  spelt_otherwise(+Readings, -Text, -Name) is nondet.
+%
+%   True if a variable of the goal of Readings stands for a type, which is told as Name, and is compared with Text, its other
+%   spelling.
+
+spelt_otherwise(Readings, Text, Name) :-
+    member(Reading, Readings),
+    variable(Reading, _, Kinds, Constants),
+    memberchk(type(Kind), Kinds),
+    member(Text, Constants),
+    atom(Text),
+    \+ known(name(Kind), Text),
+    once(( candidate(type(Kind), Name), same_type(Text, Name) )).
 
 %!  told_by_none(+Readings, -Kind, -Value, -Told:list) is nondet.
 %
