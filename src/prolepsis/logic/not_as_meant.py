@@ -41,6 +41,10 @@ def meaning_notes(read: str, goal: str, duration: float, answers: Sequence[Mappi
         elif kind == "spelling":
             if not answers:
                 told.append(f"no, but a type that is found is told as {name}, not {text}")
+        elif kind == "together":
+            if not answers:
+                stand = "allen(R, I, J) tells how two intervals stand"
+                told.append(f"no, but they begin in the same tick, and {text} asks that one begins first; {stand}")
         elif kind == "collected":
             told.append(f"{text} is collected, and stands in no goal that gives it a value")
         elif kind != "time":

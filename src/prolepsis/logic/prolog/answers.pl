@@ -30,6 +30,7 @@
 :- use_module(order).
 :- use_module(outer).
 :- use_module(query).
+:- use_module(same_tick).
 
 %!  ask(+Run, +Text, +Limit, +Seconds, -Reply:string) is det.
 %
@@ -50,8 +51,14 @@ answers(Run, Text, Limit, Seconds, Lines) :-
     nb_getval(prolepsis_cut, Status),
     open_ends(Run, Goal, Ends),
     atomic_list_concat([Status|Ends], '\t', First),
-    atomic_list_concat(Read, '\t', Second),
-    ( Answers == [] -> Denied = [] ; denials(Run, Kept, Ordered, Denied) ),
+    (   Answers == []
+    ->  ( same_tick(Run, Kept, Name) -> Together = [Name, together, ''] ; Together = [] ),
+        Denied = []
+    ;   Together = [],
+        denials(Run, Kept, Ordered, Denied)
+    ),
+    append(Read, Together, ReadAll),
+    atomic_list_concat(ReadAll, '\t', Second),
     maplist(told_of_denied(Run), Denied, Told),
     atomic_list_concat(Told, '\x1D\', Third),
     atomic_list_concat(Names, '\t', Header),
