@@ -10,7 +10,7 @@ from prolepsis.cli import main
 from prolepsis.engine import simulation
 from prolepsis.log import tables as log_tables
 from prolepsis.projection import project
-from prolepsis.terms.errors import InputError
+from prolepsis.terms.errors import InputError, UnknownNameError, error_line
 
 SITUATION = """\
 @prefix : <https://w3id.org/prolepsis#> .
@@ -131,3 +131,9 @@ def test_a_run_whose_log_could_not_be_saved_is_not_computed(tmp_path: Path, monk
         project(tmp_path / "scenario.toml", out=tmp_path / "run")
     with pytest.raises(TypeError):  # It would have been computed, to be asked and forgotten.
         project(tmp_path / "scenario.toml")
+
+
+@pytest.mark.parametrize("length", range(60, 140))
+def test_what_is_near_is_told_however_long_the_place_is(length: int) -> None:
+    error = UnknownNameError.of("individual", "egg9", ["egg1", *(f"force{k}" for k in range(30))], "x" * length)
+    assert "; did you mean 'egg1'?; known: " in error_line(f"prolepsis: {error}")

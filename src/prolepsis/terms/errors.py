@@ -104,7 +104,8 @@ class UnknownNameError(InputError):
         prefix = f"{where}: " if where else ""
         told = f"{prefix}no {what} named {brief(repr(name))}{did_you_mean(name, names)}; known: "
         # What is near is told in any case; of the others as many as there is room for in a line.
-        return cls(told + brief_list(names, min(LONGEST_LIST, max(LONGEST_LINE - len("prolepsis: ") - len(told), 20))))
+        room = LONGEST_LINE - len("prolepsis: ") - len(told) - len(", ...")
+        return cls(told + brief_list(names, min(LONGEST_LIST, max(room, 20))))
 
 
 class KnowledgeError(InputError):
