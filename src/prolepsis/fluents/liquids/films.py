@@ -38,11 +38,12 @@ def _filmed(observation: Observation, attribute: str) -> Iterator[Fact]:
         mask, stuffs = films.get(unit, (np.zeros(observation.tick_count, dtype=np.bool_), ()))
         known = unit in told or not told.isdisjoint(observation.bodies(unit))
         mask = (mask | known) & observation.exists(unit)
-        evidence: dict[str, float | str] = {"source": "told"} if known else {"by": " and ".join(dict.fromkeys(stuffs))}
+        source: dict[str, float | str] = {"source": "told"} if known else {"by": " and ".join(dict.fromkeys(stuffs))}
         area = observation.of(areas_of_units).get(unit)
         for start, end in runs(mask):
+            evidence = dict(source)
             if area is not None and area[start:end].any():
-                evidence = {**evidence, "area": float(area[start:end].max()), "area_at_end": float(area[end - 1])}
+                evidence |= {"area": float(area[start:end].max()), "area_at_end": float(area[end - 1])}
                 if not known:
                     evidence[MARGIN] = _margin(observation, area[start:end], end)
             yield observation.fact("fluent", attribute, (observation.unit_names[unit],), (start, end), evidence)
