@@ -14,6 +14,7 @@ from itertools import groupby
 from typing import Any, Literal, cast
 
 from prolepsis.log.domain import Domain
+from prolepsis.terms.decimals import decimal_of
 from prolepsis.terms.errors import InputError, brief
 from prolepsis.terms.terms import Term, Value
 from prolepsis.terms.ticks import Ticks, ticks_of
@@ -183,9 +184,10 @@ def make_timeline(
 ) -> Timeline:
     """Return the timeline of ``facts``: sorted, maximal, and at the instants of ticks that are nearest to their times.
 
-    Stretches of the same fact that overlap or meet become one. Its evidence keeps, of a number given by several, the
-    greatest (of one called ``_least`` the least), and of a name, the first. A fact within one tick is made one tick
-    long. Of an event that goes on to the end of the log, evidence tells that it ends with it.
+    A number among their arguments is the decimal that it is but for rounding. Stretches of the same fact that overlap
+    or meet become one. Its evidence keeps, of a number given by several, the greatest (of one called ``_least`` the
+    least), and of a name, the first. A fact within one tick is made one tick long. Of an event that goes on to the end
+    of the log, evidence tells that it ends with it.
 
     Args:
         facts: The facts, in any order.
@@ -229,7 +231,9 @@ def _at_ticks(fact: Fact, ticks: Ticks) -> Fact:
     start, end = ticks.snapped(fact.start), ticks.snapped(fact.end)
     if end <= start:
         end = ticks.time(ticks.number(start) + 1) if ticks.counts(start) else math.nextafter(start, math.inf)
-    return fact if (start, end) == (fact.start, fact.end) else replace(fact, start=start, end=end)
+    args = tuple(each if isinstance(each, str) else decimal_of(each) for each in fact.args)
+    same = (start, end) == (fact.start, fact.end) and args == tuple(fact.args)
+    return fact if same else replace(fact, start=start, end=end, args=args)
 
 
 def _merge(stretches: Iterable[Fact]) -> Iterable[Fact]:

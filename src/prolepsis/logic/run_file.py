@@ -11,6 +11,7 @@ from prolepsis.log.fact_types import SYMMETRIC, fact_types
 from prolepsis.log.near import MARGIN
 from prolepsis.log.timeline import NUMBERS, Argument, Fact, Timeline
 from prolepsis.logic.unknown_names import OTHERWISE
+from prolepsis.terms.decimals import decimal_of
 from prolepsis.terms.terms import format_atom, format_value
 from prolepsis.terms.ticks import ticks_of
 
@@ -43,7 +44,7 @@ def _text(value: Argument) -> str:
     if isinstance(value, str):
         # A displacement of an action is a list in a goal, as it is in the plan.
         return value if NUMBERS.fullmatch(value) else _atom(value)
-    return format_value(value)
+    return format_value(decimal_of(value))
 
 
 def _type_rows(facts: Iterable[Fact]) -> Iterable[str]:

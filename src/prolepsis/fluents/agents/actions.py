@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from prolepsis.fluents.observation import Observation
 from prolepsis.log.fact_types import EVENTS, event_of
 from prolepsis.log.timeline import Argument, Fact
-from prolepsis.terms.terms import Value, format_value
+from prolepsis.terms.decimals import decimal_of
+from prolepsis.terms.terms import Term, Value, format_value
 
 
 def action_facts(observation: Observation) -> Iterator[Fact]:
@@ -24,4 +25,16 @@ def action_facts(observation: Observation) -> Iterator[Fact]:
 
 def argument_of(value: Value) -> Argument:
     """Return an argument of an action as one of a fact: numbers and atoms stay, anything else is written out."""
-    return value if isinstance(value, (str, int, float)) else format_value(value)
+    return value if isinstance(value, (str, int, float)) else format_value(_in_decimals(value))
+
+
+def _in_decimals(value: Value) -> Value:
+    match value:
+        case int() | float():
+            return decimal_of(value)
+        case tuple():
+            return tuple(map(_in_decimals, value))
+        case Term(functor=name, args=args):
+            return Term(name, tuple(map(_in_decimals, args)))
+        case _:
+            return value

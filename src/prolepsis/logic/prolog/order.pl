@@ -9,17 +9,19 @@
         after it demand of F.
 
     Also argsOf(E, Args) after occurs(E, T) is asked of that instance, whose level may differ from that of
-    another occurrence of the same event.
+    another occurrence of the same event. What a goal computes is computed in decimals.
 */
 
 :- module(order, [ order_goal/2 ]).     % +Goal, -Ordered
 :- use_module(library(lists)).
 :- use_module(library(apply)).
+:- use_module(decimals).
 
 %!  order_goal(+Goal, -Ordered) is det.
 
 order_goal(Goal, Ordered) :-
-    order_goal(Goal, [], Ordered).
+    order_goal(Goal, [], Ordered0),
+    in_decimals(Ordered0, Ordered).
 
 %   Before is what was called earlier in the conjunctions around Goal.
 
@@ -41,7 +43,7 @@ order_goal(aggregate_all(T, Goal, R), Before, Ordered) =>
     order_goal(Goal, Before, Inner),
     Ordered = aggregate_all(T, Inner, R).
 order_goal(in(Run, Goal), _, Ordered) =>
-    order_goal(Goal, Inner),
+    order_goal(Goal, [], Inner),
     Ordered = in(Run, Inner).
 order_goal(Goal, Before, Ordered) =>
     refine([Goal], Before, [Ordered]).

@@ -15,13 +15,15 @@
 :- use_module(library(solution_sequences)).
 :- use_module(answers).
 :- use_module(chronicles).
+:- use_module(decimals).
 :- use_module(guard).
 :- use_module(known).
 :- use_module(names).
 :- use_module(query).
 :- use_module(runs).
 
-:- dynamic rules_module/2.              % ?Number, ?Module
+:- dynamic rules_module/2,              % ?Number, ?Module
+           rule/3.                      % ?Module, ?Head, ?Body, as it stands in the file
 
 %   No file has more clauses, and no chronicle more answers.
 
@@ -127,7 +129,9 @@ keep_rules(Number, Rules) :-
            ( parts(Term, Head, Body),
              functor(Head, Name, Arity),
              dynamic(Module:Name/Arity),
-             assertz(Module:(Head :- Body)),
+             in_decimals(Body, Decimal),
+             assertz(Module:(Head :- Decimal)),
+             assertz(rule(Module, Head, Body)),
              ( Head = chronicle(Event, _) -> declare_event(Event) ; true ) )),
     assertz(rules_module(Number, Module)).
 
@@ -147,10 +151,7 @@ add_rules_to_run(Number, Run, Seconds, Reply) :-
 %   What is named is known of a run only, so it is looked through here, and not when the rules are read.
 
 check_rule_names(Module) :-
-    forall(( current_predicate(Module:Name/Arity),
-             functor(Head, Name, Arity),
-             \+ predicate_property(Module:Head, imported_from(_)),
-             clause(Module:Head, Body) ),
+    forall(rule(Module, Head, Body),
            catch(check_names(Body), refused(Reason), throw(failed_rule(Head, Reason)))).
 
 %   occurrences(+Seconds, +Event, :Goal, +Template, -Found): what add_chronicles/3 calls.
