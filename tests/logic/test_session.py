@@ -267,6 +267,7 @@ def test_answers_are_values(session: Session) -> None:
         ("\\+ holds(broken(X), 0.0), (Y = a ; once(Z = b))", {"Y", "Z"}),
         ("setof(F, S^E^holds(F, S-E), Fs)", {"Fs"}),
         ("bagof(F, S^holds(F, S-E), Fs)", {"Fs", "E"}),
+        ("A = 2, foldl([X, Y, Z]>>(Z is A * X + Y), [1, 3], 0, S)", {"A", "S"}),
     ],
 )
 def test_an_answer_gives_the_variables_that_the_goal_binds(session: Session, goal: str, variables: set[str]) -> None:

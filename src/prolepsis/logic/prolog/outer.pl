@@ -6,7 +6,7 @@
 %!  outer_bindings(+Goal, +Bindings, -Outer) is det.
 %
 %   Outer are the Name=Variable of Bindings whose Variable occurs where Goal can bind it: not only inside the goal of
-%   findall/3, aggregate_all/3 or forall/2, or bound by ^ in setof/3.
+%   findall/3, aggregate_all/3 or forall/2, in a lambda, or bound by ^ in setof/3.
 
 outer_bindings(Goal, Bindings, Outer) :-
     outer(Goal, Terms, []),
@@ -37,7 +37,18 @@ outer(Goal) -->
     [Terms],
     outers(Goals).
 outer(Goal) -->
+    { compound(Goal) },
+    !,
+    { Goal =.. [_|Arguments], maplist(bound_by_call, Arguments, Bound) },
+    [Bound].
+outer(Goal) -->
     [Goal].
+
+%   A lambda is copied before it is called: of what stands only in it, nothing is bound.
+
+bound_by_call(Lambda, Bound), nonvar(Lambda), Lambda = Free/Inner, nonvar(Inner), Inner = (_>>_) => Bound = Free.
+bound_by_call(Lambda, Bound), nonvar(Lambda), Lambda = (_>>_) => Bound = [].
+bound_by_call(Argument, Bound) => Bound = Argument.
 
 outers([]) --> [].
 outers([Goal|Goals]) -->
