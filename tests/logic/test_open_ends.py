@@ -65,9 +65,37 @@ NO = [
     "holds(contains(cup2, liq1), _)",
     "holds(spilled(liq1), _)",
     "occurs(E, _T), eventT(E, 'FlowingOut'), holds(F, _U), after(_U, _T)",
+    "occurs(E, S-End), End - S > 2.5",
 ]
-YES = ["occurs(flowingOut(cup1, X), T)", "occurs(pouringTo(A, B, C), S-E)", "occurs(E, T), eventT(E, flowingOnto)"]
-APART = ["holds(contains(cup2, hand1), _)", "occurs(tilting(hand1, X), T)", "holds(broken(X), _T)"]
+YES = [
+    "occurs(flowingOut(cup1, X), T)",
+    "occurs(pouringTo(A, B, C), S-E)",
+    "occurs(E, T), eventT(E, flowingOnto)",
+    "occurs(E, T)",
+    "occurs(_, _-E), E > 2.5",
+    "findall(T, occurs(flowingOut(_, _), T), L)",
+    "setof(E, occurs(_, _-E), L)",
+    "evidence(E, T, tilt, _)",
+]
+RESTS = [
+    "occurs(flowingOut(_, _), S-_E), D is _E - S",
+    "aggregate_all(max(E - S), occurs(_, S-E), M)",
+    "aggregate_all(count, (occurs(_, S-E), E - S > 1.9), N)",
+    "\\+ (occurs(_, S-E), E - S > 2.5)",
+    "forall(occurs(flowingOut(_, _), S-E), E - S < 5)",
+    "occurs(flowingOut(A, B), _T), holds(contains(A, B), _U), allen(R, _U, _T)",
+]
+APART = [
+    "holds(contains(cup2, hand1), _)",
+    "occurs(tilting(hand1, X), T)",
+    "holds(broken(X), _T)",
+    "occurs(E, S-_)",
+    "aggregate_all(count, occurs(_, _), N)",
+    "occurs(E, 2.9)",
+    "occurs(E, T), eventT(E, tilting)",
+    "holds(contains(A, B), S-E), D is E - S",
+    "occurs(flowingOut(A, B), _T), holds(contains(A, B), _U), \\+ after(_T, _U), X = 1.0",
+]
 
 
 @pytest.mark.parametrize("goal", NO)
@@ -80,6 +108,17 @@ def test_a_no_that_depends_on_it_says_so(goal: str) -> None:
 def test_an_end_that_is_the_log_s_is_told(goal: str) -> None:
     assert "still went on when the log ended at 3 s; the end that it shows is the log's" in note(CUT, goal)
     assert not note(WHOLE, goal)
+
+
+@pytest.mark.parametrize("goal", RESTS)
+def test_what_rests_on_such_an_end_says_so(goal: str) -> None:
+    assert "still went on when the log ended at 3 s; had it ended later, the answer might be another" in note(CUT, goal)
+    assert not note(WHOLE, goal)
+
+
+def test_only_the_event_that_matters_is_named() -> None:
+    goal = "aggregate_all(count, (occurs(_, S-E), E - S > 1.9), N)"
+    assert note(CUT, goal).startswith("flowingOnto(liq1,cup2) still went on")
 
 
 @pytest.mark.parametrize("goal", APART)

@@ -16,7 +16,7 @@ from prolepsis.logic.process import PROLOG_FILES
 from prolepsis.logic.session import Session
 from prolepsis.terms.terms import format_value
 
-INTERNAL = {"matching", "args_of", "interval", "relation_names", "same_type", "open_ends"}
+INTERNAL = {"matching", "args_of", "interval", "relation_names", "same_type", "open_ends", "open_fields"}
 """Predicates that the modules share, and that a goal may not call."""
 PAGE = (Path(__file__).parents[2] / "docs" / "queries.md").read_text()
 

@@ -8,13 +8,14 @@ from itertools import islice
 
 from prolepsis.log.near import MARGIN, is_near
 from prolepsis.log.timeline import Fact, Timeline
-from prolepsis.logic.open_ends import MOST_LOOKED_AT
 from prolepsis.logic.refusals import shown
 from prolepsis.terms.errors import brief
 from prolepsis.terms.terms import Term, Value, format_value
 
 MOST = 3
 """So many facts are told of."""
+MOST_LOOKED_AT = 1000
+"""Answers that are looked through; more nobody reads one by one."""
 
 
 def near_note(timeline: Timeline, answers: Sequence[Mapping[str, Value]], goal: str) -> str:

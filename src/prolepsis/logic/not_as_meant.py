@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
 
-from prolepsis.logic.open_ends import MOST_LOOKED_AT
+from prolepsis.logic.near_threshold import MOST_LOOKED_AT
 from prolepsis.logic.refusals import shown
 from prolepsis.logic.unknown_names import WHAT, a_kind, nearest
 from prolepsis.terms.errors import brief, brief_list

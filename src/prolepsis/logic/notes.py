@@ -43,7 +43,7 @@ def notes(
     for each in denied.split(DENIED) if denied else ():
         told, its_read = each.split(ITS)
         text, *ends = told.split("\t")
-        of_denied += _notes(timeline, text, (), its_read, ends)
+        of_denied += _notes(timeline, text, (), its_read, ends and ["until", *ends])
     of_denied = [*dict.fromkeys(filter(None, of_denied))]
     if len(of_denied) > MOST:
         of_denied[MOST:] = [f"{len(of_denied) - MOST} more notes on what is not so are left out: {shown(goal)}"]
@@ -54,7 +54,7 @@ def _notes(
     timeline: Timeline, goal: str, answers: Sequence[Mapping[str, Value]], read: str, open_ends: Sequence[str]
 ) -> Iterator[str]:
     yield from meaning_notes(read, goal, timeline.duration, answers)
-    yield open_note(answers, open_ends, goal)
+    yield open_note(open_ends, goal)
     if not answers:
         yield undone_note(timeline, goal)
         yield unbreakable_note(timeline, goal)

@@ -1,7 +1,7 @@
 /*  Answers: a goal in text is read, checked, put in order, run within its limits, and answered in text.
 
-    A reply is lines: first "ok" ("cut" where a value was too large or deep to be told whole) and, after tabs, what still
-    went on when the log ended and bears on the goal; or what went wrong. Then what may not have been meant, in threes: as it
+    A reply is lines: first "ok" ("cut" where a value was too large or deep to be told whole) and, after tabs, how the answer
+    rests on what still went on when the log ended, and that; or what went wrong. Then what may not have been meant, in threes: as it
     stands, of what kind that is, and the name that was meant or the values that are told; then each "no" on which an answer
     rests, with the same of it; the variables; and one line for each distinct answer, with the values of the variables
     separated by tabs, as terms that can be read back.
@@ -23,6 +23,7 @@
 :- use_module(guard).
 :- use_module(kinds).
 :- use_module(known).
+:- use_module(longer).
 :- use_module(names).
 :- use_module(numbers).
 :- use_module(not_as_meant).
@@ -49,7 +50,7 @@ answers(Run, Text, Limit, Seconds, Lines) :-
     nb_setval(prolepsis_told, 0),
     call_with_time_limit(Seconds, answers(Run, Goal, Bindings, Values, Limit, Answers, Read, Kept, Ordered)),
     nb_getval(prolepsis_cut, Status),
-    open_ends(Run, Goal, Ends),
+    how_ended(Run, Goal, asked_of(Ordered, Values, Limit), Answers, Ends),
     atomic_list_concat([Status|Ends], '\t', First),
     (   Answers == []
     ->  ( same_tick(Run, Kept, Name) -> Together = [Name, together, ''] ; Together = [] ),
@@ -65,9 +66,37 @@ answers(Run, Text, Limit, Seconds, Lines) :-
     atomic_list_concat([Header|Answers], '\n', Body),
     Lines = [First, "\n", Second, "\n", Third, "\n", Body].
 
+%   A "no" rests on what it would be another answer without, and on what might have come to what is asked.
+
+how_ended(Run, Goal, Asked, Answers, Ends) :-
+    (   rests_on(Run, Goal, answers:Asked, Events, How0)
+    ->  true
+    ;   Events = [],
+        How0 = none
+    ),
+    (   Answers == []
+    ->  How = until,
+        open_ends(Run, Goal, Events, Fields)
+    ;   How = How0,
+        open_fields(Events, Fields)
+    ),
+    ( Fields == [] -> Ends = [] ; Ends = [How|Fields] ).
+
+%   asked_of(+Goal, +Values, +Limit, +Module, -Texts): what is answered in a run Module; nothing of it is told.
+
+asked_of(Goal, Values, Limit, Module, Texts) :-
+    nb_getval(prolepsis_cut, Cut),
+    nb_getval(prolepsis_told, Told),
+    call_cleanup(snapshot(findall(Text, limit(Limit, distinct(Text, answer_in(Module, Goal, Values, Text))), Texts)),
+                 ( nb_setval(prolepsis_cut, Cut), nb_setval(prolepsis_told, Told) )).
+
+answer_in(Module, Goal, Values, Text) :-
+    with_module(Module, query:Goal),
+    value_texts(Values, Text).
+
 told_of_denied(Run, Goal, Told) :-
     short_text(Goal, Text),
-    open_ends(Run, Goal, Ends),
+    open_ends(Run, Goal, [], Ends),
     readings(Goal, [], Readings),
     not_as_meant(Run, Goal, [], Readings, [], Read),
     atomic_list_concat([Text|Ends], '\t', First),

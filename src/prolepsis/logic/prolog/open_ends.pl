@@ -2,7 +2,8 @@
 
 :- module(open_ends,
           [ ongoing/1,                  % ?FluentOrEvent
-            open_ends/3                 % +Run, +Goal, -Fields
+            open_ends/4,                % +Run, +Goal, +Events, -Fields
+            open_fields/2               % +Events, -Fields
           ]).
 :- use_module(library(lists)).
 :- use_module(library(occurs)).
@@ -20,16 +21,24 @@ ongoing(Term) :-
     row(Kind, Term, _, End, _, Run),
     End >= Last.
 
-%!  open_ends(+Run, +Goal, -Fields:list) is det.
+%!  open_ends(+Run, +Goal, +Events, -Fields:list) is det.
 %
-%   Fields are text, start and end of each event on which Goal bears and that went on when the log of Run ended: one
-%   that it names, or one of all the things that it names.
+%   Fields are text, start and end of each of Events, event(Id, Text, Start, End), and of each event on which Goal bears and
+%   that went on when the log of Run ended: one that it names, or one of all the things that it names.
 
-open_ends(Run, Goal, Fields) :-
-    with_run(Run, findall([Text, Start, End], open_end(Goal, Text, Start, End), Rows)),
+open_ends(Run, Goal, Events, Fields) :-
+    with_run(Run, findall(event(Id, Text, Start, End), open_end(Goal, Id, Text, Start, End), Bearing)),
+    union(Events, Bearing, All0),
+    sort(All0, All),
+    open_fields(All, Fields).
+
+%!  open_fields(+Events, -Fields:list) is det.
+
+open_fields(Events, Fields) :-
+    findall([Text, Start, End], member(event(_, Text, Start, End), Events), Rows),
     append(Rows, Fields).
 
-open_end(Goal, Text, Start, End) :-
+open_end(Goal, Id, Text, Start, End) :-
     current_run(Run),
     Run:lasts(_),
     once(Run:proof(_, ends, 'with the log')),

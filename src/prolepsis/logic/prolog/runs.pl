@@ -27,6 +27,7 @@
             known_run/2,                % ?Run, -Module
             current_run/1,              % -Module
             with_run/2,                 % +Run, :Goal
+            with_module/2,              % +Module, :Goal
             spelt/3,                    % +Module, +Number, -Kept
             spelt_term/3,               % +Module, +Term, -Kept
             equal_value/2,              % ?Value, +Kept
@@ -42,7 +43,7 @@
 :- use_module(classes, [work_out_classes/1]).
 :- use_module(ticks).
 
-:- meta_predicate with_run(+, 0), add_chronicles(+, +, 4).
+:- meta_predicate with_run(+, 0), with_module(+, 0), add_chronicles(+, +, 4).
 :- dynamic known_run/2.
 
 % Tables of a run: those whose clauses come from the file, and those that follow from them.
@@ -306,6 +307,11 @@ current_run(Module) :-
 
 with_run(Run, Goal) :-
     known_run(Run, Module),
+    with_module(Module, Goal).
+
+%!  with_module(+Module, :Goal) is nondet.
+
+with_module(Module, Goal) :-
     (   nb_current(prolepsis_run, Before)
     ->  true
     ;   Before = none
