@@ -23,7 +23,8 @@ def test_shell_comes_off_a_boiled_egg_part_by_part_and_its_kernel_stays_whole() 
     assert peeling.outcome == "not_reached"
     assert float(peeling.evidence["pieces_off"]) > float(peeling.evidence["pieces"]) / 3
     assert run.ask("holds(broken(egg1), T)")
-    assert not run.ask("holds(broken(kernel1), T)")
+    with pytest.warns(Note, match="kernel1 is not Breakable"):
+        assert not run.ask("holds(broken(kernel1), T)")
     assert not run.ask("holds(spilled(_), T)")
     peeled = "occurs(peeling(rightGripper, leftGripper, egg1, _), P)"
     assert run.ask(f"{peeled}, occurs(falling(X), F), allen(during, F, P)")

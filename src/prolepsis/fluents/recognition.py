@@ -9,7 +9,9 @@ from prolepsis.fluents.margins import NearMiss
 from prolepsis.fluents.observation import observe
 from prolepsis.fluents.registry import GROUNDINGS, check_declared
 from prolepsis.log.domain import Domain, with_things
+from prolepsis.log.fact_types import NEEDS, ONLY_OF
 from prolepsis.log.log import Log
+from prolepsis.log.things import falling_apart
 from prolepsis.log.timeline import Fact, Timeline, make_timeline
 from prolepsis.system.threads import one_thread
 from prolepsis.terms.errors import LogError, brief
@@ -37,8 +39,23 @@ def recognize(log: Log, *, domain: Domain | None = None) -> Timeline:
     for kind, name, count in dict.fromkeys((fact.kind, fact.type, len(fact.args)) for fact in (*facts, *nearly)):
         check_declared(kind, name, count)
     facts += action_facts(observation)
-    known = domain or with_things(Domain(), log.things)
+    known = domain or replace(with_things(Domain(), log.things), untold=_untold(log))
     return make_timeline(facts, dt=log.dt, duration=log.duration, domain=known, near_misses=nearly)
+
+
+def _untold(log: Log) -> tuple[tuple[str], ...]:
+    """Return each class that no thing of a log is told to be of, though facts are found of nothing else.
+
+    A log of a simulation here has channels, and decides whatever was simulated.
+    """
+    if log.channels:
+        return ()
+    told = {role for thing in log.things for role in (thing.kind, *thing.roles)}
+    if not falling_apart(log.things) and not len(log.detachments.tick):
+        # What has no parts to break into does not break, whatever it is said to be.
+        told -= {"Breakable"}
+    asked = {role for roles in (*ONLY_OF.values(), NEEDS.values()) for each in roles for role in each}
+    return tuple((role,) for role in sorted(asked - told))
 
 
 def _rounded(fact: Fact) -> Fact:

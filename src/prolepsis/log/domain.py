@@ -36,6 +36,8 @@ class Domain:
     """(kind, name) of classes and properties, but quantities, of which no other row tells that they exist."""
     units: tuple[tuple[str, str], ...] = ()
     """(property, SI unit) of quantities."""
+    untold: tuple[tuple[str], ...] = ()
+    """Each class of which a log that others made tells nothing: it does not decide what is found of nothing else."""
     unchecked: str = ""
     """Why it was not decided whether this contradicts itself; empty if it does not."""
 

@@ -38,8 +38,24 @@ class FactType:
 
 SYMMETRIC = frozenset({"contacts", "colliding"})
 """Types of which both things are alike: a goal finds them with the two in either order."""
-ONLY_OF: Mapping[str, str] = dict.fromkeys(("breaking", "broken", "cracked", "open", "crushed"), "Breakable")
-"""Types that are found of nothing but what is of a class, for everything else is rigid: a "no" says so."""
+_FLUID = ("Liquid", "Stuff")
+ONLY_OF: Mapping[str, tuple[tuple[str, ...], ...]] = {
+    **dict.fromkeys(("breaking", "broken"), (("Breakable", "Membraned"),)),
+    **dict.fromkeys(("cracked", "open", "crushed"), (("Breakable",),)),
+    "dented": (("DentingBowl",),),
+    "buckled": (("BucklingBowl",),),
+    **dict.fromkeys(("absorbing", "absorbs", "dripping"), (("Absorbent",), _FLUID)),
+    **dict.fromkeys(("spilled", "spilling", "inFlight"), (_FLUID,)),
+    **dict.fromkeys(("flowingOut", "overflowing", "leaking"), ((), _FLUID)),
+    "flowingOnto": (_FLUID, ()),
+    "pouringTo": ((), _FLUID, ()),
+    **dict.fromkeys(("floats", "immersed"), ((), _FLUID)),
+    **dict.fromkeys(("closingGripper", "openingGripper"), (("Gripper",),)),
+}
+"""Types that are found of nothing but what is of one of some classes, argument by argument; none are any. Everything
+else is rigid and dry: a "no" says so."""
+NEEDS: Mapping[str, tuple[str, ...]] = dict.fromkeys(("wet", "dirty"), _FLUID)
+"""Types that come about only where something is of one of some classes, be it of what it may."""
 TOLD_INSTEAD: Mapping[str, str] = {"Breakable": "overloading"}
 """What is found of a thing that is of no such class, where one of the class would come to what is found of it only."""
 FLUENTS: dict[str, FactType] = {}

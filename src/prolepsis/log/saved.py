@@ -63,15 +63,15 @@ def _domain(table: Any) -> Domain:
     """Return the domain whose rows these are; each has as many texts as its kind of row, and values may be numbers."""
     names = [each.name for each in fields(Domain)]
     # Older folders have no classes and units, and do not say whether it was checked: it was, or they would not be.
-    later = {"unchecked", "subclasses", "definitions", "subproperties", "units", "inverses", "declared"}
+    later = {"unchecked", "subclasses", "definitions", "subproperties", "units", "inverses", "declared", "untold"}
     if not isinstance(table, dict) or {*later, *cast("dict[str, Any]", table)} != set(names):
         raise ValueError(f"{DOMAIN} must be an object with {', '.join(names)}")
     rows: dict[str, Any] = {**{name: [] for name in later - {"unchecked"}}, **cast("dict[str, Any]", table)}
     unchecked = rows.get("unchecked", "")
     if not isinstance(unchecked, str):
         raise ValueError(f"{DOMAIN}: unchecked must be a text")
-    of_three = ("values", "relations", "definitions")
-    columns = {name: 3 if name in of_three else 2 for name in names if name != "unchecked"}
+    counts = {"values": 3, "relations": 3, "definitions": 3, "untold": 1}
+    columns = {name: counts.get(name, 2) for name in names if name != "unchecked"}
     for name, count in columns.items():
         kinds = (str,) * (count - 1) + ((str, int, float) if name == "values" else str,)
         if not isinstance(rows[name], list) or not all(_is_row(row, kinds) for row in rows[name]):
@@ -105,7 +105,9 @@ def write_timeline_files(timeline: Timeline, path: Path) -> None:
         raise InputError(
             f"the timeline cannot be saved: it has {len(timeline.facts):,} facts; {MOST_FACTS:,} could be read again"
         )
-    write_json(path / DOMAIN, asdict(timeline.domain))
+    rows = asdict(timeline.domain)
+    # A run of our own tells of all that it is asked.
+    write_json(path / DOMAIN, rows if rows["untold"] else {name: row for name, row in rows.items() if name != "untold"})
     nearly = [plain(fact) for fact in timeline.near_misses]
     told = {"dt": timeline.dt, "duration": timeline.duration, "facts": timeline.to_json(), "near_misses": nearly}
     write_json(path / TIMELINE, told)

@@ -7,10 +7,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from prolepsis.log.timeline import Timeline
 from prolepsis.logic.near_threshold import near_note
 from prolepsis.logic.not_as_meant import meaning_notes, uncomputed_note
+from prolepsis.logic.only_of import only_of_note
 from prolepsis.logic.open_ends import open_note
 from prolepsis.logic.otherwise import otherwise_note
 from prolepsis.logic.refusals import shown
-from prolepsis.logic.unbreakable import unbreakable_note
 from prolepsis.logic.undone import undone_note
 from prolepsis.terms.terms import Value
 
@@ -57,7 +57,7 @@ def _notes(
     yield open_note(open_ends, goal)
     if not answers:
         yield undone_note(timeline, goal)
-        yield unbreakable_note(timeline, goal)
+        yield only_of_note(timeline, goal)
         yield otherwise_note(timeline, goal)
     yield uncomputed_note(answers, goal)
     yield near_note(timeline, answers, goal)
