@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from prolepsis.log.fact_types import event_of
-from prolepsis.log.outcomes import CARRYING, CLOSING, GOES_ON, OUTCOMES
+from prolepsis.log.lookup import lookup
+from prolepsis.log.outcomes import CARRYING, CLOSING, GOES_ON
 from prolepsis.log.timeline import Fact, Timeline
 from prolepsis.terms.errors import brief
 from prolepsis.terms.terms import format_value
@@ -17,7 +20,7 @@ REASON = 160
 
 def plan_end(timeline: Timeline) -> tuple[float, tuple[Fact, ...]] | None:
     """Return when the plan ended [s], and the failed actions that ended it; None if it went through."""
-    actions = [fact for fact in timeline.facts if fact.evidence.get("outcome") in OUTCOMES]
+    actions = lookup(timeline).actions
     failed = [fact for fact in actions if _ends_sequence(fact) and not _followed(fact, actions)]
     return (max(fact.end for fact in actions), tuple(failed)) if failed else None
 
@@ -29,7 +32,7 @@ def _ends_sequence(fact: Fact) -> bool:
     return not goes_on and outcome != "unfinished"
 
 
-def _followed(failed: Fact, actions: list[Fact]) -> bool:
+def _followed(failed: Fact, actions: Sequence[Fact]) -> bool:
     """Return whether something was done after it that was not done beside it."""
     beside = any(each.start < failed.end < each.end for each in actions)
     return not beside and any(each.start >= failed.end for each in actions)

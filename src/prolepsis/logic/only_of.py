@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from prolepsis.log.domain import Domain
 from prolepsis.log.fact_types import NEEDS, ONLY_OF, TOLD_INSTEAD
+from prolepsis.log.lookup import lookup
 from prolepsis.log.timeline import Fact, Timeline
 from prolepsis.logic.otherwise import subterms
 from prolepsis.logic.refusals import shown
@@ -58,16 +59,17 @@ def _asked(goal: str, known: set[str]) -> Iterator[tuple[str, tuple[str, ...], s
 def _told(timeline: Timeline, type_: str, roles: tuple[str, ...], thing: str) -> str:
     domain = timeline.domain
     told_instead = {TOLD_INSTEAD[role] for role in roles if role in TOLD_INSTEAD}
-    instead = [each for each in timeline.facts if each.type in told_instead and thing in ("", *each.args[:1])]
+    found = [each for type_instead in sorted(told_instead) for each in lookup(timeline).of(type_instead)]
+    instead = [each for each in found if thing in ("", *each.args[:1])]
     if instead:
         return f"{_facts(instead)} occurred, and {type_} is told of nothing but what is {' or '.join(roles)}"
     classes = {kind for name, kind in domain.instances if name == thing}
-    if {*roles} <= {role for (role,) in domain.untold} and not timeline.select(type=type_):
+    if {*roles} <= {role for (role,) in domain.untold} and not lookup(timeline).of(type_):
         return f"the log tells of nothing that is {' or '.join(roles)}, and does not decide {type_}"
     if classes and not classes & {*roles} and _told_of(domain, roles):
         return f"{brief(format_atom(thing))} is not {' or '.join(roles)}, and {type_} is told of nothing else"
     whole = next((whole for whole, part in domain.parts if part == thing), None)
-    if whole is not None and any(whole in each.args for each in timeline.select(type=type_)):
+    if whole is not None and any(whole in each.args for each in lookup(timeline).of(type_)):
         return f"{brief(format_value(Term(type_, (whole,))))} tells of it: {brief(format_atom(thing))} is a part"
     return ""
 

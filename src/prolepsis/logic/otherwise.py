@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterator
 
 from prolepsis.log.evidence_names import EVIDENCE_UNITS
 from prolepsis.log.fact_types import SYMMETRIC
+from prolepsis.log.lookup import lookup
 from prolepsis.log.timeline import Timeline
 from prolepsis.logic.refusals import shown
 from prolepsis.terms.errors import InputError, brief, brief_list
@@ -61,20 +62,23 @@ def _other_way_round(timeline: Timeline, asked: Term, either_way: bool) -> Itera
     if either_way and asked.functor in SYMMETRIC:
         return
     parts = [("has_part", row) for row in timeline.domain.parts] if asked.functor == "has_part" else []
-    facts = {*parts, *((fact.type, fact.args) for fact in timeline.facts if fact.type == asked.functor)}
+    facts = {*parts, *((fact.type, fact.args) for fact in lookup(timeline).of(asked.functor))}
     if (asked.functor, asked.args[::-1]) in facts and (asked.functor, asked.args) not in facts:
         yield f"{brief(format_value(Term(asked.functor, asked.args[::-1])))} is so, the other way round"
 
 
 def _other_number(timeline: Timeline, asked: Term) -> Iterator[str]:
     if any(isinstance(each, int | float) for each in asked.args):
-        same = [fact.term for fact in timeline.facts if _but_for_numbers(fact.term) == _but_for_numbers(asked)]
+        alike = lookup(timeline).of(asked.functor)
+        same = [fact.term for fact in alike if _but_for_numbers(fact.term) == _but_for_numbers(asked)]
         yield from (f"{brief(format_value(each))} is so" for each in same if each != asked)
     match asked:
         case Term(functor="value", args=(str(thing), str(name), int() | float() as given)):
             numbers = [value for of, its, value in timeline.domain.values if (of, its) == (thing, name)]
         case Term(functor="evidence", args=(thing, _, str(name), int() | float() as given)):
-            numbers = [fact.evidence.get(name) for fact in timeline.facts if fact.term == thing]
+            type_ = thing.functor if isinstance(thing, Term) else thing
+            alike = lookup(timeline).of(type_) if isinstance(type_, str) else ()
+            numbers = [fact.evidence.get(name) for fact in alike if fact.term == thing]
         case _:
             return
     unit = {**EVIDENCE_UNITS, **dict(timeline.domain.units)}.get(name, "")
@@ -95,8 +99,8 @@ def _other_evidence(timeline: Timeline, asked: Term, words: Collection[str]) -> 
             types = {*words}
         case _:
             return
-    for type_ in sorted(types & {fact.type for fact in timeline.facts}):
-        known = {each for fact in timeline.facts if fact.type == type_ for each in fact.evidence}
+    for type_ in sorted(types & lookup(timeline).by_type.keys()):
+        known = {each for fact in lookup(timeline).of(type_) for each in fact.evidence}
         if name not in known:
             yield f"{type_} has no {format_atom(name)} here; {_evidence_told(name, known)}"
 

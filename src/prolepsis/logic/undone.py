@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Set
 
-from prolepsis.log.outcomes import OUTCOMES
+from prolepsis.log.lookup import lookup
 from prolepsis.log.plan_end import CARRYING_EVENTS, plan_end, plan_end_told, told
 from prolepsis.log.timeline import Timeline
 from prolepsis.logic.otherwise import subterms
@@ -42,11 +42,10 @@ def undone_note(timeline: Timeline, goal: str) -> str:
     is_about = ended is not None and _asks_log(goal, ended[0], PLAN_MAKES)
     named = {*re.findall(r"\w+", goal)}
     found = [plan_end_told(timeline)] if is_about else []
-    for fact in timeline.facts:
+    for fact in lookup(timeline).actions:
         outcome = fact.evidence.get("outcome")
         if (
-            outcome in OUTCOMES
-            and outcome not in FINE
+            outcome not in FINE
             and not (outcome == "not_held" and fact.type in CARRYING_EVENTS)
             and not (is_about and ended and fact in ended[1])
             and named & {each for each in fact.args if isinstance(each, str)}

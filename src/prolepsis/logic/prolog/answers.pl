@@ -48,7 +48,10 @@ answers(Run, Text, Limit, Seconds, Lines) :-
     pairs(Outer, Names, Values),
     nb_setval(prolepsis_cut, "ok"),
     nb_setval(prolepsis_told, 0),
+    statistics(inferences, Before),
     call_with_time_limit(Seconds, answers(Run, Goal, Bindings, Values, Limit, Answers, Read, Kept, Ordered)),
+    statistics(inferences, After),
+    Spent is After-Before,
     nb_getval(prolepsis_cut, Status),
     how_ended(Run, Goal, asked_of(Ordered, Values, Limit), Answers, Ends),
     atomic_list_concat([Status|Ends], '\t', First),
@@ -56,7 +59,7 @@ answers(Run, Text, Limit, Seconds, Lines) :-
     ->  ( same_tick(Run, Kept, Name) -> Together = [Name, together, ''] ; Together = [] ),
         Denied = []
     ;   Together = [],
-        denials(Run, Kept, Ordered, Denied)
+        denials(Run, Kept, Ordered, Spent, Denied)
     ),
     append(Read, Together, ReadAll),
     atomic_list_concat(ReadAll, '\t', Second),

@@ -1,6 +1,6 @@
 /*  Denials: the "no" on which an answer rests, as that of a negation, or of a collection that is empty. */
 
-:- module(denials, [ denials/4 ]).      % +Run, +Goal, +Ordered, -Denied
+:- module(denials, [ denials/5 ]).      % +Run, +Goal, +Ordered, +Spent, -Denied
 :- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(library(solution_sequences)).
@@ -10,37 +10,43 @@
 :- use_module(query).
 :- use_module(runs).
 
-%   So many answers are looked at, and so many denials told, in so many inferences and seconds: this is beside the answer.
+%   So many answers are looked at, and so many denials told, in so many seconds, and in so many inferences or a part of those
+%   that the answers took: this is beside the answer.
 
 most_answers(1000).
 most_denials(100).
+least_inferences(300_000).
 most_inferences(5_000_000).
+part_of_inferences(5).
 most_seconds(0.5).
 
-%!  denials(+Run, +Goal, +Ordered, -Denied:list) is det.
+%!  denials(+Run, +Goal, +Ordered, +Spent, -Denied:list) is det.
 %
 %   Denied are goals about Run that are in Goal, as an answer to Goal binds them, which are not so, where Goal is; Ordered
-%   is Goal in an order that is quick.
+%   is Goal in an order that is quick, whose answers took Spent inferences.
 
-denials(Run, Goal, Ordered, Denied) :-
+denials(Run, Goal, Ordered, Spent, Denied) :-
+    nb_setval(prolepsis_denied, []),
     (   has_asks(Goal)
-    ->  most_inferences(Inferences),
+    ->  least_inferences(Least),
+        most_inferences(Most),
+        part_of_inferences(Part),
+        Inferences is min(Most, max(Least, Spent//Part)),
         most_seconds(Seconds),
-        catch(call_with_time_limit(Seconds,
-                                   call_with_inference_limit(all_denials(Run, Goal, Ordered, Found), Inferences, _)),
-              _, true),
-        ( var(Found) -> Denied = [] ; Denied = Found )
-    ;   Denied = []
-    ).
+        catch(call_with_time_limit(Seconds, call_with_inference_limit(all_denials(Run, Goal, Ordered), Inferences, _)),
+              _, true)
+    ;   true
+    ),
+    nb_getval(prolepsis_denied, Found),
+    reverse(Found, Denied).
 
-all_denials(Run, Goal, Ordered, Denied) :-
+all_denials(Run, Goal, Ordered) :-
     most_answers(Answers),
     most_denials(Most),
     % What stands alone binds nothing in itself.
     ( asks(Goal, _, _) -> Called = true ; Called = Ordered ),
-    findall(Each,
-            limit(Most, distinct(Each, with_run(Run, ( limit(Answers, query:Called), denied(Goal, Each) )))),
-            Denied).
+    forall(limit(Most, distinct(Each, with_run(Run, ( limit(Answers, query:Called), denied(Goal, Each) )))),
+           ( nb_getval(prolepsis_denied, Found), nb_setval(prolepsis_denied, [Each|Found]) )).
 
 %   asks(+Goal, -Inner, -Then): Goal may be so where Inner is not; else Then is called after Inner.
 
