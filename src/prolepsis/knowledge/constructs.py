@@ -59,7 +59,7 @@ _SAID: Mapping[str, Words] = {
     RELATION: frozenset({RDFS.subPropertyOf, OWL.inverseOf, OWL.equivalentProperty, OWL.propertyDisjointWith})
     | {RDFS.domain, RDFS.range, OWL.propertyChainAxiom, PRO.alignedWith},
     VALUES: frozenset({RDFS.domain, RDFS.range, HAS_UNIT})
-    | {PRO.above, PRO.atLeast, PRO.atMost, PRO.whole, PRO.alignedWith},
+    | {PRO.above, PRO.atLeast, PRO.atMost, PRO.whole, PRO.ofParts, PRO.alignedWith},
     NOTE: frozenset({RDFS.subPropertyOf, RDFS.domain, RDFS.range}),
     ONTOLOGY: frozenset({OWL.imports, OWL.versionIRI, OWL.priorVersion, OWL.backwardCompatibleWith})
     | {OWL.incompatibleWith},

@@ -171,6 +171,7 @@ def _property(document: Document, iri: URIRef) -> Property:
         at_least_of=_property_named(document, iri, PRO.atLeast),
         at_most_of=_property_named(document, iri, PRO.atMost),
         whole=(iri, PRO.whole, Literal(True)) in graph,
+        of_parts=(iri, PRO.ofParts, Literal(True)) in graph,
         functional=(iri, RDF.type, OWL.FunctionalProperty) in graph,
         parents=tuple(sorted(local_name(p) for p in graph.objects(iri, RDFS.subPropertyOf) if isinstance(p, URIRef))),
         range=ranges[0] if ranges and kind == "relation" else "",

@@ -26,6 +26,8 @@ def derive(base: KnowledgeBase, name: str, property_name: str) -> Known | None:
     """
     if property_name in OF_THE_WALL:
         return _of_its_wall(base, name, property_name)
+    if base.vocabulary.properties[property_name].of_parts:
+        return _of_its_whole(base, name, property_name)
     rule = _RULES.get(property_name)
     known = (rule(base, name) if rule else None) or _on_a_curve(base, name, property_name)
     if known is not None:
@@ -62,6 +64,17 @@ def _of_its_wall(base: KnowledgeBase, name: str, property_name: str) -> Known | 
     if known is None:
         return None
     return replace(known, origin="derived", source=f"that of its wall {walls[0]} ({known.origin}: {known.source})")
+
+
+def _of_its_whole(base: KnowledgeBase, name: str, property_name: str) -> Known | None:
+    """Return what is stated of the nearest whole of which it is."""
+    whole = base.situation.wholes.get(name)
+    while whole is not None:
+        known = base.find(whole, property_name) if (whole, property_name) in base.situation.said else None
+        if known is not None:
+            return replace(known, origin="derived", source=f"that of {whole}, whose part it is ({known.source})")
+        whole = base.situation.wholes.get(whole)
+    return None
 
 
 def _mass(base: KnowledgeBase, name: str) -> Known | None:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
+from prolepsis.knowledge import derived
 from prolepsis.knowledge.batches import refuse_idle_batches
 from prolepsis.knowledge.deriving import derive, mass_of_volume, masses_of
 from prolepsis.knowledge.vocabulary import Property
@@ -14,6 +15,7 @@ from prolepsis.terms.errors import KnowledgeError
 if TYPE_CHECKING:
     from prolepsis.knowledge.knowledge_base import KnowledgeBase
 
+_EXTENTS = ("length", "breadth", "width", "height", "radius", "thickness")
 ALIKE = 0.01
 """A mass and what follows from density and volume agree within this share [1]: people round."""
 
@@ -39,9 +41,12 @@ def refuse_impossible_values(base: KnowledgeBase) -> None:
         for limit in (limit for c in classes for limit in base.vocabulary.classes[c].limits):
             value = base.text(name, limit.name) if limit.among else base.number(name, limit.name)
             if value is not None and not limit.admits(value):
-                said = f"{limit.name} = {limit.shown(value)}: must be {limit.bounds} for a {base.kind(name)}"
+                known = base.find(name, limit.name)
+                follows = f" ({known.source})" if known is not None and known.origin == "derived" else ""
+                said = f"{limit.name} = {limit.shown(value)}{follows}: must be {limit.bounds} for a {base.kind(name)}"
                 raise KnowledgeError(f"{where(name, limit.name)}: {name}: {said}")
         _refuse_twice_told(base, name, where)
+        _refuse_no_matter(base, name, where)
         for entry in compared:
             # Of those of whom nothing of it is said, one of each kind is enough.
             said = any((name, each) in base.situation.said for each in (entry.name, *_others(entry)))
@@ -61,6 +66,26 @@ def _refuse_twice_told(base: KnowledgeBase, name: str, where: Callable[[str, str
             f"{where(name, 'mass')}: {name}: its mass is {mass:g} kg, but {found.source} is {found.value:g} kg; "
             "allowed: one of mass and density, or both if they agree"
         )
+
+
+def _refuse_no_matter(base: KnowledgeBase, name: str, where: Callable[[str, str], str]) -> None:
+    """Refuse a mass and extents, of which one is stated, that no matter of the individual's classes has."""
+    stated = next((each for each in ("mass", *_EXTENTS) if base.stated(name, each) is not None), None)
+    shape, mass = base.text(name, "shape"), base.number(name, "mass")
+    # What encloses nothing has no volume, and the file of a mesh is read when it is composed.
+    if stated is None or mass is None or shape in (None, "mesh"):
+        return
+    found = derived.volume(shape, lambda extent: base.number(name, extent))
+    if found is None:
+        return
+    density, (volume, formula) = mass / found[0], found
+    limits = (limit for c in base.types.classes[name] for limit in base.vocabulary.classes[c].limits)
+    for bound in (base.vocabulary.properties["density"], *(each for each in limits if each.name == "density")):
+        if not bound.admits(density):
+            raise KnowledgeError(
+                f"{where(name, stated)}: {name}: its mass, {mass:.3g} kg, in its volume, {volume:.3g} m3 ({formula}), "
+                f"is {density:.3g} kg/m3: must be {bound.bounds} for a {base.kind(name)}; state both mass and extents"
+            )
 
 
 def _others(entry: Property) -> Iterator[str]:

@@ -46,6 +46,8 @@ class Property:
     """Individuals of which values must be one; any if empty."""
     whole: bool = False
     """True if values must be whole numbers."""
+    of_parts: bool = False
+    """True if what is stated of a whole is so of its parts, unless it is stated of them."""
     functional: bool = False
     """True if an individual has at most one value."""
     parents: tuple[str, ...] = ()
