@@ -201,6 +201,7 @@ class('Granular').
 class('Gripper').
 class('Hand').
 class('HardBoiledEgg').
+class('HardBoiledQuailEgg').
 class('Honey').
 class('Kernel').
 class('Lawn').
@@ -220,6 +221,7 @@ class('Part').
 class('PhysicalObject').
 class('Pouring').
 class('QuailEgg').
+class('QuailEggKernel').
 class('QuailEggShell').
 class('QuailEggWhite').
 class('QuailEggYolk').
@@ -286,6 +288,7 @@ parent('Granular', 'Stuff').
 parent('Gripper', 'Solid').
 parent('Hand', 'Gripper').
 parent('HardBoiledEgg', 'Egg').
+parent('HardBoiledQuailEgg', 'HardBoiledEgg').
 parent('Honey', 'Liquid').
 parent('Kernel', 'ShellContent').
 parent('Kernel', 'Solid').
@@ -305,6 +308,7 @@ parent('PaperBowl', 'BucklingBowl').
 parent('PaperTowel', 'Towel').
 parent('Pouring', 'Event').
 parent('QuailEgg', 'Egg').
+parent('QuailEggKernel', 'EggKernel').
 parent('QuailEggShell', 'EggShell').
 parent('QuailEggWhite', 'EggWhite').
 parent('QuailEggYolk', 'EggYolk').
