@@ -8,7 +8,7 @@ import pytest
 
 from prolepsis.log.domain import Domain
 from prolepsis.log.fact_types import event_of
-from prolepsis.log.plan_end import plan_end_told
+from prolepsis.log.plan_end import plan_end_told, plan_outcome
 from prolepsis.log.timeline import Fact, Timeline, make_timeline
 from prolepsis.terms.errors import Note
 
@@ -93,3 +93,21 @@ def test_of_an_action_and_its_part_that_failed_the_action_is_told() -> None:
     assert plan_end_told(_run(whole, part)) == "the plan ended at 1.03 s: grasping(hand1,egg1,10.0) was in_collision"
     with pytest.warns(Note, match="^no, but the plan ended at [^;]*$"):
         assert _run(whole, part).ask("holds(broken(egg1), T)") == []
+
+
+@pytest.mark.parametrize(
+    ("actions", "outcome"),
+    [
+        ((), "done"),
+        ((REACHING,), "done"),
+        ((REACHING, FAILED), "in_collision"),
+        ((("pressing", ("hand1", "egg1", 45.0), 0.0, 0.4, "not_reached"), REACHING), "not_reached"),
+        ((("pressing", ("hand1", "egg1", 45.0), 0.0, 0.4, "not_reached"), FAILED), "in_collision"),
+        ((FAILED, ("pressing", ("hand2", "cup1", 5.0), 0.5, 1.5, "not_reached")), "in_collision"),
+        ((("lifting", ("hand1", 0.1), 0.5, 1.0, "dropped"), ("waiting", (1.0,), 1.0, 2.0, "unfinished")), "unfinished"),
+    ],
+)
+def test_a_plan_has_the_outcome_of_what_ended_it_or_of_the_last_that_fell_short(
+    actions: tuple[tuple[str, tuple[str | float, ...], float, float, str], ...], outcome: str
+) -> None:
+    assert plan_outcome(_run(*actions)) == outcome

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import cast
 
 from prolepsis.campaigns.outcome import Grasp, judge_grasp
+from prolepsis.log.plan_end import plan_outcome
 from prolepsis.projection import Progress, project, read_scenario
 from prolepsis.scenario.scenario import Scenario
 from prolepsis.system.workers import Lost, carry_out
@@ -35,7 +36,7 @@ class Row:
     grasp: Grasp | None = None
     """What became of the grasp, if the plan has one."""
     outcome: str = "done"
-    """That of the last action that did not reach its aim, else ``done``."""
+    """That of the plan: of the action that ended it, else of the last that fell short, else ``done``."""
     answers: Sequence[Mapping[str, Value]] | None = None
     """Answers to the goal, if one was given."""
     error: str | None = None
@@ -203,8 +204,7 @@ def _row(scenario: Scenario, values: dict[str, float | str], ask: str | None, li
         return Row(values=values, error=str(error), invalid=isinstance(error, InvalidSimulationError))
     unchecked = result.timeline.domain.unchecked
     level = _newtons(grasp, result.scene.number)
-    short = [action.outcome for action in result.log.actions if action.outcome != "done"]
-    outcome = short[-1] if short else "done"
+    outcome = plan_outcome(result.timeline)
     return Row(values=values, level=level, grasp=grasp, outcome=outcome, answers=answers, unchecked=unchecked)
 
 

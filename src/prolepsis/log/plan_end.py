@@ -1,4 +1,4 @@
-"""Where a plan did not go through: an action that fails ends its sequence, and what follows is not done."""
+"""How a plan ended: an action that fails ends its sequence, and what follows is not done."""
 
 from __future__ import annotations
 
@@ -23,6 +23,13 @@ def plan_end(timeline: Timeline) -> tuple[float, tuple[Fact, ...]] | None:
     actions = lookup(timeline).actions
     failed = [fact for fact in actions if _ends_sequence(fact) and not _followed(fact, actions)]
     return (max(fact.end for fact in actions), tuple(failed)) if failed else None
+
+
+def plan_outcome(timeline: Timeline) -> str:
+    """Return the outcome of a plan: of the action that ended it, else of the last that fell short, else ``done``."""
+    ended = plan_end(timeline)
+    short = _wholes(ended[1]) if ended else [f for f in lookup(timeline).actions if f.evidence["outcome"] != "done"]
+    return str(max(short, key=lambda fact: (fact.end, -fact.start)).evidence["outcome"]) if short else "done"
 
 
 def _ends_sequence(fact: Fact) -> bool:
@@ -51,8 +58,12 @@ def plan_end_told(timeline: Timeline) -> str:
     if ended is None:
         return ""
     time, failed = ended
-    wholes = [fact for fact in failed if not any(_is_part(fact, each) for each in failed)]
-    return f"the plan ended at {time:.4g} s: {'; '.join(map(told, wholes))}"
+    return f"the plan ended at {time:.4g} s: {'; '.join(map(told, _wholes(failed)))}"
+
+
+def _wholes(failed: Sequence[Fact]) -> list[Fact]:
+    """Return the failed actions but those that failed as a part of another one."""
+    return [fact for fact in failed if not any(_is_part(fact, each) for each in failed)]
 
 
 def _is_part(fact: Fact, whole: Fact) -> bool:
