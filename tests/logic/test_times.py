@@ -102,3 +102,9 @@ def test_two_is_two_in_what_is_compared_afterwards(goal: str) -> None:
 def test_an_interval_that_ends_before_it_starts_is_none() -> None:
     with pytest.raises(GoalError, match=r"not an interval: 2-2\.0"):
         TWO.ask("meets(2-2.0, T)")
+
+
+@pytest.mark.parametrize("time", ["0.1+0.2", "2*0.5", "(1+2)-4"])
+def test_what_is_to_be_computed_is_told_of(time: str) -> None:
+    with pytest.raises(GoalError, match=r"not an interval: .*; compute it first: T is "):
+        TWO.ask(f"holds(F, {time})")

@@ -19,6 +19,8 @@ RELATIONS = (
     "before, after, meets, met_by, overlaps, overlapped_by, starts, started_by, during, contains, "
     "finishes, finished_by, equals"
 )
+COMPUTES = re.compile(r"[\d)][+*/]|\)-|-\(")
+"""What stands for a time, and is to be computed."""
 NO_NUMBERS = {"1.5NaN": "nan", "1.0Inf": "inf", "-1.0Inf": "-inf"}
 """How a goal writes what Prolog prints so."""
 NO_FUNCTION = re.compile(r"Arithmetic: `(.*)/0' is not a function")
@@ -92,7 +94,9 @@ def refusal(status: str, body: str, goal: str, time_limit: float, timeline: Time
             told = "gives an interval and no number to compare; write S-E for it, and compare S, E or E-S, its length"
             return GoalError(f"{brief(body)} {told}")
         case "interval":
-            return GoalError(f"not an interval: {brief(body)}; an interval is Start-End, with Start before End")
+            told = "an interval is Start-End, with Start before End"
+            told += f"; compute it first: T is {brief(body)}" if COMPUTES.search(body) else ""
+            return GoalError(f"not an interval: {brief(body)}; {told}")
         case "instant":
             told = "a time is a finite number of seconds, or an interval Start-End"
             return GoalError(f"not a time: {NO_NUMBERS.get(body, brief(body))}; {told}")
