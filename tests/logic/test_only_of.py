@@ -34,7 +34,7 @@ RUN = make_timeline(
         )
         + tuple((name, kind) for name, kind in (("liq1", "Liquid"), ("liq1", "Stuff"), ("yolk1", "Membraned"))),
         subclasses=(("Sponge", "Absorbent"), ("DentingBowl", "Bowl"), ("Hand", "Gripper")),
-        parts=(("egg1", "eggshell1"),),
+        parts=(("egg1", "eggshell1"), ("egg1", "yolk1")),
     ),
 )
 

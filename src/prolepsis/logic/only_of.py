@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from prolepsis.log.domain import Domain
-from prolepsis.log.fact_types import NEEDS, ONLY_OF, TOLD_INSTEAD
+from prolepsis.log.fact_types import BY_ITSELF, NEEDS, ONLY_OF, TOLD_INSTEAD
 from prolepsis.log.lookup import lookup
 from prolepsis.log.timeline import Fact, Timeline
 from prolepsis.logic.otherwise import subterms
@@ -69,7 +69,7 @@ def _told(timeline: Timeline, type_: str, roles: tuple[str, ...], thing: str) ->
     if classes and not classes & {*roles} and _told_of(domain, roles):
         return f"{brief(format_atom(thing))} is not {' or '.join(roles)}, and {type_} is told of nothing else"
     whole = next((whole for whole, part in domain.parts if part == thing), None)
-    if whole is not None and any(whole in each.args for each in lookup(timeline).of(type_)):
+    if whole is not None and not classes & BY_ITSELF and any(whole in each.args for each in lookup(timeline).of(type_)):
         return f"{brief(format_value(Term(type_, (whole,))))} tells of it: {brief(format_atom(thing))} is a part"
     return ""
 
