@@ -135,3 +135,8 @@ def test_what_is_said_to_break_does_not_without_parts(tmp_path: Path) -> None:
         with pytest.warns(Note, match="Breakable, and does not decide cracked"):
             assert timeline.ask("holds(cracked(a), T)") == []
         assert timeline.ask("holds(contains(a, X), T)") == []
+
+
+def test_what_a_log_alone_says_of_classes_is_not_all() -> None:
+    domain = Domain(instances=(("egg1", "Breakable"), ("yolk1", "EggYolk"), ("yolk1", "Stuff")))
+    assert make_timeline([], dt=1e-3, duration=2.0, domain=domain).ask("holds(broken(yolk1), T)") == []

@@ -75,7 +75,9 @@ def _told(timeline: Timeline, type_: str, roles: tuple[str, ...], thing: str) ->
 
 
 def _told_of(domain: Domain, roles: tuple[str, ...]) -> bool:
-    """Return whether one of some classes is known where a domain comes from."""
+    """Return whether one of some classes is known where a domain comes from, and all classes of what is in it are."""
+    if not domain.subclasses:  # What a log alone says of things is some of their classes.
+        return False
     return not {*roles}.isdisjoint(
         name for row in (*domain.subclasses, *domain.definitions, *domain.instances) for name in row
     )
