@@ -138,5 +138,7 @@ def test_what_is_said_to_break_does_not_without_parts(tmp_path: Path) -> None:
 
 
 def test_what_a_log_alone_says_of_classes_is_not_all() -> None:
-    domain = Domain(instances=(("egg1", "Breakable"), ("yolk1", "EggYolk"), ("yolk1", "Stuff")))
-    assert make_timeline([], dt=1e-3, duration=2.0, domain=domain).ask("holds(broken(yolk1), T)") == []
+    instances = (("egg1", "Breakable"), ("yolk1", "EggYolk"), ("yolk1", "Stuff"))
+    domain = Domain(instances=instances, parts=(("egg1", "yolk1"),))
+    told = make_timeline(RUN.facts[1:], dt=1e-3, duration=2.0, domain=domain)
+    assert told.select(type="broken") and told.ask("holds(broken(yolk1), T)") == []

@@ -54,8 +54,8 @@ ONLY_OF: Mapping[str, tuple[tuple[str, ...], ...]] = {
 }
 """Types that are found of nothing but what is of one of some classes, argument by argument; none are any. Everything
 else is rigid and dry: a "no" says so."""
-BY_ITSELF = frozenset({"Membraned"})
-"""Of what is of these it is told by itself, also where it is a part of what is of another."""
+BY_ITSELF = frozenset({"Stuff", "Membraned"})
+"""What breaks of these is told by itself, also where it is a part: recognition takes a stuff for a whole of its own."""
 NEEDS: Mapping[str, tuple[str, ...]] = dict.fromkeys(("wet", "dirty"), _FLUID)
 """Types that come about only where something is of one of some classes, be it of what it may."""
 TOLD_INSTEAD: Mapping[str, str] = {"Breakable": "overloading"}
