@@ -9,6 +9,7 @@ import numpy as np
 
 from prolepsis.fluents.intervals import close_gaps, runs, ticks_of
 from prolepsis.fluents.liquids.particle_locations import Inside, ParticleLocations, particle_locations
+from prolepsis.fluents.nesting import nesting
 from prolepsis.fluents.observation import Observation, named
 from prolepsis.fluents.registry import event
 from prolepsis.fluents.solids.containment import NOTICEABLE_FRACTION
@@ -46,7 +47,7 @@ def flowing_out(observation: Observation) -> Iterator[Fact]:
 
     loose = seen.particles.holder == FREE
     for inside in seen.inside:
-        left = departures(inside.hollow, inside.near, loose)
+        left = departures(inside.hollow, inside.near, loose & ~_carried(observation, seen, inside))
         for stuff in seen.stuffs():
             passages = _of_stuff(seen, left, stuff)
             for start, end, during in streams(observation, seen, passages):
@@ -82,6 +83,16 @@ def flowing_onto(observation: Observation) -> Iterator[Fact]:
                 evidence |= _sources(observation, seen, passages, during, whence)
                 args = observation.unit_names[stuff], observation.unit_names[unit]
                 yield observation.fact("event", "flowingOnto", args, (start, end), evidence)
+
+
+def _carried(observation: Observation, seen: ParticleLocations, outer: Inside) -> BoolArray:
+    """Return which particles are in a vessel that is in another: what that carries out does not flow, (F, P)."""
+    found = np.zeros_like(outer.pool)
+    for inner in seen.inside:
+        both = outer.hollow & inner.pool
+        if inner is not outer and both.any():
+            found |= both & nesting(observation, inner.unit, outer.unit).dips[seen.particles.tick][:, None]
+    return found
 
 
 def _whereabouts(observation: Observation, seen: ParticleLocations) -> IntArray:

@@ -6,7 +6,7 @@ what is carried along stays inside; all others are looked at for the surfaces th
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ import numpy.typing as npt
 from prolepsis.fluents.hollows import NEAR, covered, hollows_of, stopped_levels
 from prolepsis.fluents.intervals import ticks_of
 from prolepsis.fluents.kernels.matter import assembled
+from prolepsis.fluents.nesting import nesting
 from prolepsis.fluents.observation import Observation, is_held_from_outside, named
 from prolepsis.fluents.shapes_in_time import Part, RigidShape, rigid_shapes
 from prolepsis.fluents.solids.contact import is_stuff
@@ -176,7 +177,7 @@ def particle_locations(observation: Observation) -> ParticleLocations | None:
         # What stays within an egg or a sponge touches nothing: no compiled loop is needed.
         manner, on = np.zeros(loose.shape, dtype=np.uint8), np.full(loose.shape, -1, dtype=np.int16)
         return ParticleLocations(particles=particles, share=share, inside=(), manner=manner, on=on)
-    inside = _inside(observation, particles, loose)
+    inside = _of_innermost(observation, particles, _inside(observation, particles, loose))
     manner, on = _touching(observation, particles, loose, inside)
     return ParticleLocations(particles=particles, share=share, inside=inside, manner=manner, on=on)
 
@@ -198,6 +199,20 @@ def _inside(observation: Observation, particles: Particles, loose: BoolArray) ->
         known = found.get(unit)
         found[unit] = (size, seen) if known is None else (max(size, known[0]), _joined(known[1], seen))
     return tuple(inside for _, inside in sorted(found.values(), key=lambda pair: pair[0]))
+
+
+def _of_innermost(observation: Observation, particles: Particles, inside: tuple[Inside, ...]) -> tuple[Inside, ...]:
+    """Return the same without what is in a vessel that only dips into another from the pool of that."""
+    found: list[Inside] = []
+    for outer in inside:
+        pool = outer.pool
+        for inner in inside:
+            both = outer.pool & inner.pool
+            if inner is not outer and both.any():
+                keeps = nesting(observation, inner.unit, outer.unit).keeps[particles.tick]
+                pool = pool & ~(both & keeps[:, None])
+        found.append(outer if pool is outer.pool else replace(outer, pool=pool))
+    return tuple(found)
 
 
 def _joined(one: Inside, other: Inside) -> Inside:

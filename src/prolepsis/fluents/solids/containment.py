@@ -6,13 +6,14 @@ A liquid is one of the contents: what has come into it is contained, be it that 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from prolepsis.fluents.inside import Depths, depths_within
 from prolepsis.fluents.intervals import close_gaps, debounce, drop_short, hysteresis, mask_of, runs, ticks_of, union
 from prolepsis.fluents.margins import NearMiss, margin_of, nearly
+from prolepsis.fluents.nesting import nesting
 from prolepsis.fluents.observation import Observation, is_held_from_outside
 from prolepsis.fluents.registry import fluent
 from prolepsis.fluents.shapes_in_time import RigidShape, rigid_shapes
@@ -147,7 +148,23 @@ def contents(observation: Observation) -> tuple[Content, ...]:
                 if depths is not None:
                     inside.setdefault(unit, []).append(depths)
         found += _borne(observation, container, inside)
-    return tuple(found)
+    return tuple(_of_innermost(observation, found))
+
+
+def _of_innermost(observation: Observation, found: list[Content]) -> Iterator[Content]:
+    """Yield the same, but nothing as in a vessel into which only dips what it is in."""
+    count, by_content = observation.tick_count, dict[int, list[Content]]()
+    for item in found:
+        by_content.setdefault(item.content, []).append(item)
+    for item in found:
+        mask = mask_of(item.stretches, count)
+        for other in by_content[item.content]:
+            both = mask & mask_of(other.stretches, count)
+            if other is not item and both.any():
+                mask &= ~(both & nesting(observation, other.container, item.container).keeps)
+        stretches = drop_short(runs(mask), ticks_of(CONTAINED_LEAST, observation.dt))
+        if len(stretches):
+            yield replace(item, stretches=stretches)
 
 
 def _borne_by_loose(observation: Observation, container: int, unit: int) -> BoolArray:
