@@ -68,12 +68,12 @@ def immersed(observation: Observation) -> Iterator[Fact | NearMiss]:
     """At least a noticeable share of o1's volume is below the surface of the liquid o2 that a vessel holds."""
     for (unit, stuff), share in _shares(observation).items():
         what = ("fluent", "immersed", (observation.unit_names[unit], observation.unit_names[stuff]))
-        ratio = share / NOTICEABLE_SHARE
+        ratio, least = share / NOTICEABLE_SHARE, ticks_of(LEAST, observation.dt)
         stretches = debounce(ratio >= 1.0, observation.dt, gap=GAP, least=LEAST)
         for start, end in stretches.tolist():
-            evidence = {**fractions(share[start:end]), MARGIN: margin_of(ratio, start, end)}
+            evidence = {**fractions(share[start:end]), MARGIN: margin_of(ratio, start, end, least)}
             yield observation.fact(*what, (start, end), evidence)
-        yield from nearly(observation, what, ratio, stretches)
+        yield from nearly(observation, what, ratio, stretches, least)
 
 
 @fluent("floats", "o1", "o2")
@@ -84,19 +84,19 @@ def floats(observation: Observation) -> Iterator[Fact | NearMiss]:
         borne = _borne_by_liquid(observation, unit)
         slow = (share > BARELY) & (_vertical_speed(observation, unit) < BOBBING_SPEED)
         ratio = np.where(slow & (share < WHOLLY), borne / BORNE_SHARE, 0.0)
-        lightness = _lightness(observation, unit, stuff)
+        lightness, least = _lightness(observation, unit, stuff), ticks_of(LEAST, observation.dt)
         stretches = debounce(ratio >= 1.0, observation.dt, gap=GAP, least=LEAST)
         for start, end in stretches.tolist():
             evidence = {
                 "share": float(borne[start:end].mean()),
                 **fractions(share[start:end]),
-                MARGIN: margin_of(np.minimum(ratio, np.maximum(lightness, 1.0)), start, end),
+                MARGIN: margin_of(np.minimum(ratio, np.maximum(lightness, 1.0)), start, end, least),
             }
             yield observation.fact(*what, (start, end), evidence)
         # What is about as dense as the liquid might as well have looked out.
         alike = slow & (share > WHOLLY) & (lightness <= 1 / (1 - NEAR))
         covered = np.minimum(np.minimum(borne / BORNE_SHARE, lightness), WHOLLY / np.maximum(share, WHOLLY))
-        yield from nearly(observation, what, np.where(alike, covered, ratio), stretches)
+        yield from nearly(observation, what, np.where(alike, covered, ratio), stretches, least)
 
 
 def immersions(observation: Observation) -> tuple[Immersion, ...]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from prolepsis.fluents.intervals import arriving, debounce, opened
+from prolepsis.fluents.intervals import arriving, debounce, opened, ticks_of
 from prolepsis.fluents.liquids.liquid_motion import FLOWING_SPEED, particle_speeds
 from prolepsis.fluents.liquids.particle_locations import ParticleLocations, particle_locations
 from prolepsis.fluents.margins import NearMiss, margin_of
@@ -99,10 +99,11 @@ def spilling_liquid(observation: Observation) -> Iterator[Fact]:
         fraction = seen.fraction(flowing, stuff)
         outside = seen.at_ticks(seen.fraction(lying, stuff), observation.tick_count)
         shown = seen.at_ticks(fraction, observation.tick_count)
+        least = ticks_of(OUTSIDE_LEAST, observation.dt)
         for start, end in _noticed(observation, seen, fraction):
             before, after = float(outside[max(start - 1, 0)]), float(outside[min(end, observation.tick_count - 1)])
             evidence = {"fraction": float(shown[start:end].max()), "spilled_before": before, "spilled_after": after}
-            evidence[MARGIN] = margin_of(shown / NOTICEABLE_FRACTION, start, end)
+            evidence[MARGIN] = margin_of(shown / NOTICEABLE_FRACTION, start, end, least)
             yield observation.fact("event", "spilling", (observation.unit_names[stuff],), (start, end), evidence)
 
 

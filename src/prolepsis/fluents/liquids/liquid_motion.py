@@ -72,5 +72,6 @@ def _mostly(observation: Observation, seen: ParticleLocations, type: str, mask: 
     for stuff in seen.stuffs():
         fraction = seen.at_ticks(seen.fraction(mask, stuff), observation.tick_count)
         for start, end in debounce(fraction >= MOST - ROUNDING, observation.dt, gap=STUFF_GAP, least=STUFF_LEAST):
-            evidence = {"fraction": float(fraction[start:end].max()), MARGIN: margin_of(fraction / MOST, start, end)}
+            margin = margin_of(fraction / MOST, start, end, ticks_of(STUFF_LEAST, observation.dt))
+            evidence = {"fraction": float(fraction[start:end].max()), MARGIN: margin}
             yield observation.fact("event", type, (observation.unit_names[stuff],), (start, end), evidence)

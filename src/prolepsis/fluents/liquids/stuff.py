@@ -62,10 +62,11 @@ def spilling(observation: Observation) -> Iterator[Fact]:
         flowing[blob] = arriving(mask[:, None], ~flows[:, None], frames)[:, 0] & flows
     for stuff, shares in observation.of(blob_shares).items():
         fraction, outside = share_of(observation, shares, flowing), share_of(observation, shares, lying)
+        least = ticks_of(STUFF_LEAST, observation.dt)
         for start, end in _noticed(observation, fraction):
             before, after = float(outside[max(start - 1, 0)]), float(outside[min(end, observation.tick_count - 1)])
             evidence = {"fraction": float(fraction[start:end].max()), "spilled_before": before, "spilled_after": after}
-            evidence[MARGIN] = margin_of(fraction / NOTICEABLE_FRACTION, start, end)
+            evidence[MARGIN] = margin_of(fraction / NOTICEABLE_FRACTION, start, end, least)
             yield observation.fact("event", "spilling", (observation.log.things[stuff].name,), (start, end), evidence)
 
 
@@ -183,5 +184,6 @@ def _mostly(observation: Observation, type: str, find: Callable[[Observation], d
     for stuff, shares in observation.of(blob_shares).items():
         fraction = share_of(observation, shares, masks)
         for start, end in debounce(fraction >= MOST - ROUNDING, observation.dt, gap=STUFF_GAP, least=STUFF_LEAST):
-            evidence = {"fraction": float(fraction[start:end].max()), MARGIN: margin_of(fraction / MOST, start, end)}
+            margin = margin_of(fraction / MOST, start, end, ticks_of(STUFF_LEAST, observation.dt))
+            evidence = {"fraction": float(fraction[start:end].max()), MARGIN: margin}
             yield observation.fact("event", type, (observation.log.things[stuff].name,), (start, end), evidence)

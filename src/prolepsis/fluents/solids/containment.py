@@ -102,12 +102,12 @@ def facts_of_share(
         stretches: When it is noticed.
         more: What is told besides, as the greatest of each by its name, shape (T,).
     """
-    ratio = share / NOTICEABLE_FRACTION
+    ratio, least = share / NOTICEABLE_FRACTION, ticks_of(CONTAINED_LEAST, observation.dt)
     for start, end in stretches.tolist():
         greatest = {name: float(values[start:end].max()) for name, values in more.items()}
-        evidence = {**greatest, **fractions(share[start:end]), MARGIN: margin_of(ratio, start, end)}
+        evidence = {**greatest, **fractions(share[start:end]), MARGIN: margin_of(ratio, start, end, least)}
         yield observation.fact(*what, (start, end), evidence)
-    yield from nearly(observation, what, ratio, stretches)
+    yield from nearly(observation, what, ratio, stretches, least)
 
 
 def fractions(share: FloatArray) -> dict[str, float]:
