@@ -57,7 +57,7 @@ def test_what_is_there_for_one_frame_alone_is_no_near_miss_whatever_its_share(le
     count = max(1, round(level * 0.02 * (len(rest) + len(drop))))
     path = np.tile(np.concatenate([drop[:count], rest]), (FRAMES, 1, 1))
     outside = np.arange(FRAMES) != FRAMES // 2
-    path[np.ix_(outside, np.arange(count), [2])] += 0.3
+    path[outside, :count, 2] += 0.3
     timeline = recognize(wet([table(), vessel()], {"liq1": path}, ticks=FRAMES * EVERY))
     assert not timeline.select(type="contains")
     assert not [fact for fact in timeline.near_misses if fact.type == "contains"]

@@ -71,7 +71,8 @@ def test_what_was_so_or_far_from_it_is_no_near_miss() -> None:
     [
         pytest.param(0.005, (2.5e-5,), 1.0, id="one coarse particle"),
         pytest.param(0.001, (1.36e-5,), 1.0, id="a drop of fine ones"),
-        pytest.param(0.005, (2.5e-5, 2.5e-3), 100.0, id="a puddle that spreads"),
+        pytest.param(0.005, (2.5e-5, 2.5e-3), 184.2, id="a puddle that spreads"),
+        pytest.param(0.001, (2.5e-5, 2.5e-3), 184.2, id="the same of finer particles"),
         pytest.param(0.005, (2.5e-3, 5.3e-5), 1.06, id="a puddle that is wiped off but for a fiftieth"),
         pytest.param(0.005, (2.5e-3, 2.5e-4), 5.0, id="a puddle that is wiped off but for a tenth"),
     ],

@@ -10,7 +10,7 @@ from prolepsis.engine.world import compile_world
 from prolepsis.fluents import recognize
 from prolepsis.log.happenings import DROP
 from prolepsis.log.log import FREE
-from prolepsis.log.timeline import Timeline
+from prolepsis.log.timeline import Fact, Timeline
 from prolepsis.matter.films.wetting import LOOK_TICKS, Wetting
 
 PUDDLE = ":floor a :Floor . :table1 a :Table . :liq1 a :Water ; :on :table1 ; :volume 0.0000005 . "
@@ -133,3 +133,24 @@ def test_facts_tell_how_large_the_film_is() -> None:
     (fact,) = timeline.select(type="wet")
     # Half a millilitre in a layer of particles of 8 mm^3, which spreads a little.
     assert 1.5e-4 < float(fact.evidence["area_at_end"]) <= float(fact.evidence["area"]) < 6e-4
+
+
+def test_what_is_under_water_is_wet_by_its_surface_however_many_particles_there_are() -> None:
+    bowl = ":floor a :Floor . :bowl1 a :Bowl ; :on :floor ; :contains :liq1 . :liq1 a :Water ; :volume 0.0003 . "
+    block = ":block1 a :Block ; :length 0.02 ; :width 0.02 ; :height 0.02 ; :density 1500 ; :z 0.06 . "
+    areas: list[float] = []
+    margins: list[float] = []
+    for particles in (500, 1000, 2000):
+        timeline = recognize(run(bowl + block, "wait(0.6)", duration=0.6, particles=particles))
+        (fact,) = (fact for fact in timeline.select(type="wet") if fact.args == ("block1",))
+        areas.append(number(fact, "area"))
+        margins.append(number(fact, "margin"))
+    assert min(areas) > 0.0022 and max(areas) < 0.00245
+    assert max(margins) < 1.1 * min(margins)
+
+
+def number(fact: Fact, name: str) -> float:
+    """Return what was measured of a fact."""
+    value = fact.evidence[name]
+    assert isinstance(value, float)
+    return value

@@ -14,6 +14,9 @@ from prolepsis.log.happenings import DROP, FILM, FILM_AREA, FILM_LEFT
 from prolepsis.log.near import MARGIN
 from prolepsis.log.timeline import Fact
 
+FEW = 2.0
+"""So many particles do not tell whether one of them did it by chance [1]."""
+
 
 @fluent("wet", "o")
 def wet(observation: Observation) -> Iterator[Fact]:
@@ -50,14 +53,16 @@ def _filmed(observation: Observation, attribute: str) -> Iterator[Fact]:
 
 
 def _margin(observation: Observation, area: FloatArray, end: int) -> float:
-    """Return the greatest area of a film over the least that makes a surface wet [1].
+    """Return the greatest area of a film over that of a drop, which makes a surface wet [1].
 
-    While it is being wiped off, it is the lesser of that and what is left over what counts as dry.
+    One coarse particle is at the threshold, too, and of some it does not count how coarse they are. While it is being
+    wiped off, it is the lesser of that and what is left over what counts as dry.
     """
-    least = max(DROP ** (2 / 3), observation.log.particles.spacing**2)
-    margin = float(area.max()) / least
-    wiped = end == observation.tick_count and area[-1] < area.max()
-    return min(margin, float(area[-1] / area.max()) / FILM_LEFT) if wiped else margin
+    drop, particle, greatest = DROP ** (2 / 3), observation.log.particles.spacing**2, float(area.max())
+    margin = greatest / (drop if greatest > FEW * particle else max(drop, particle))
+    margin = max(margin, 1.0)
+    wiped = end == observation.tick_count and area[-1] < greatest
+    return min(margin, float(area[-1] / greatest) / FILM_LEFT) if wiped else margin
 
 
 def films_of_units(observation: Observation) -> dict[int, tuple[BoolArray, tuple[str, ...]]]:

@@ -11,9 +11,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from prolepsis.geometry.rotations import matrix
-from prolepsis.geometry.shape import FloatArray, IntArray
+from prolepsis.geometry.shape import FloatArray
 from prolepsis.log.happenings import DROP, FILM_LEFT, film, film_area
 from prolepsis.log.things import friction_of
+from prolepsis.matter.films.covering import NOWHERE, Film
 from prolepsis.scene.kind import Controller
 from prolepsis.scene.nearby import distance_to, solids_of, touching, unobstructed
 from prolepsis.scene.running import Running
@@ -24,9 +25,6 @@ SELDOM = 4
 """Of surfaces that nothing can dry, so many looks are left out but for one: their films only grow."""
 TOUCH_REACH = 0.75
 """Distance of a particle's centre from a surface that it wets [spacings]; at rest on it, it is a half."""
-_BITS = 21
-"""Bits of a cell's number along an axis."""
-_HALF = 1 << (_BITS - 1)
 
 
 class Wetting(Controller):
@@ -37,11 +35,12 @@ class Wetting(Controller):
         self._things = state.scene.things
         self._names = {thing.name: i for i, thing in enumerate(self._things)}
         self._absorbent = [i for i, t in enumerate(self._things) if "Absorbent" in t.roles and t.is_body]
-        self._wet: dict[int, IntArray] = {}
-        """Where the film of each thing is: cells a spacing wide in its frame, as one number each."""
-        self._most: dict[int, int] = {}
-        self._told: dict[int, int] = {}
-        """How many cells of each film the log was told of."""
+        self._wet: dict[int, Film] = {}
+        """Where the film of each thing is."""
+        self._most: dict[int, float] = {}
+        """The greatest area of each [m^2] ..."""
+        self._told: dict[int, float] = {}
+        """... and the one that the log was told of."""
         self._ticks = 0
 
     def end_tick(self, state: Running) -> None:
@@ -56,7 +55,7 @@ class Wetting(Controller):
         for index in self._absorbent:
             held = particles.stuff[particles.holder == index]
             if len(held) and index not in self._wet:
-                self._wetten(state, index, int(held[0]), np.zeros(0, dtype=np.int64))
+                self._wetten(state, index, int(held[0]), NOWHERE)
         positions = particles.position[free]
         for index in solids_of(state):
             keeps = not self._absorbent or index in self._absorbent
@@ -68,39 +67,35 @@ class Wetting(Controller):
             if index in self._wet:
                 self._wipe(state, index, particles.spacing, positions[near], keeps)
             elif len(near) and float(particles.volume[free[near]].sum()) >= DROP:
-                cells = self._cells(state, index, particles.spacing, positions[near])
-                self._wetten(state, index, int(particles.stuff[free[near[0]]]), cells)
-            if index in self._wet and len(self._wet[index]) != self._told.get(index, 0):
-                self._told[index] = len(self._wet[index])
-                state.report(film_area(index, self._told[index] * particles.spacing**2))
+                begun = self._grown(state, index, particles.spacing, NOWHERE, positions[near])
+                self._wetten(state, index, int(particles.stuff[free[near[0]]]), begun)
+            if index in self._wet and self._wet[index].area != self._told.get(index, 0.0):
+                self._told[index] = self._wet[index].area
+                state.report(film_area(index, self._told[index]))
 
     def _wipe(self, state: Running, index: int, spacing: float, positions: FloatArray, keeps: bool) -> None:
         """Let the film grow to where liquid is, and take it away where something absorbent is now and no liquid."""
-        cells = self._wet[index]
-        world = self._centres(state, index, spacing, cells)
-        left = np.ones(len(cells), dtype=np.bool_)
+        known = self._wet[index]
+        pose = state.pose(self._things[index].name)
+        world = pose[:3] + known.positions @ matrix(pose[3:]).T
+        left = np.ones(len(known.cells), dtype=np.bool_)
         for absorbent in () if keeps else self._absorbent:
-            # Where in its cell the liquid was is not known.
+            # Where in its cell the liquid was besides is not known.
             left &= distance_to(state, absorbent, world) > (TOUCH_REACH + 0.5) * spacing
-        self._wet[index] = np.union1d(cells[left], self._cells(state, index, spacing, positions))
-        self._most[index] = max(self._most[index], len(self._wet[index]))
-        if not keeps and not len(positions) and len(self._wet[index]) <= FILM_LEFT * self._most[index]:
+        self._wet[index] = self._grown(state, index, spacing, known if left.all() else known.only(left), positions)
+        self._most[index] = max(self._most[index], self._wet[index].area)
+        if not keeps and not len(positions) and self._wet[index].area <= FILM_LEFT * self._most[index]:
             self._dry(state, index)
 
-    def _cells(self, state: Running, index: int, spacing: float, positions: FloatArray) -> IntArray:
+    def _grown(self, state: Running, index: int, spacing: float, film: Film, positions: FloatArray) -> Film:
+        if not len(positions):
+            return film
         pose = state.pose(self._things[index].name)
-        local = (positions - pose[:3]) @ matrix(pose[3:])
-        numbers = np.floor(local / spacing).astype(np.int64) + _HALF
-        return np.unique((numbers[:, 0] << 2 * _BITS) | (numbers[:, 1] << _BITS) | numbers[:, 2])
+        return film.grown(self._things[index].shape, spacing, (positions - pose[:3]) @ matrix(pose[3:]))
 
-    def _centres(self, state: Running, index: int, spacing: float, cells: IntArray) -> FloatArray:
-        pose, mask = state.pose(self._things[index].name), 2 * _HALF - 1
-        numbers = np.stack((cells >> 2 * _BITS, (cells >> _BITS) & mask, cells & mask), axis=1) - _HALF
-        return pose[:3] + ((numbers + 0.5) * spacing) @ matrix(pose[3:]).T
-
-    def _wetten(self, state: Running, index: int, stuff: int, cells: IntArray) -> None:
+    def _wetten(self, state: Running, index: int, stuff: int, begun: Film) -> None:
         surface = self._things[index]
-        self._wet[index], self._most[index] = cells, len(cells)
+        self._wet[index], self._most[index] = begun, begun.area
         for name in (surface.name, *self._wholes(index)):
             state.set_attribute(name, "wet", 1.0)
             state.set_attribute(name, "dirty", 1.0)
