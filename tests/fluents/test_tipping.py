@@ -180,6 +180,51 @@ def test_an_egg_that_a_finger_pushes_over_the_edge_is_never_back(degrees: float,
         assert times(timeline, "toppling(egg)")[0][1] == pytest.approx(times(timeline, "falling(egg)")[0][0], abs=0.02)
 
 
+def roller(name: str, x: float) -> str:
+    """Return a cylinder that lies on the floor."""
+    return free(name, f"{x} 0 .02", '<geom type="cylinder" size=".02 .05" mass=".1" euler="90 0 0"/>')
+
+
+@pytest.mark.parametrize(
+    ("what", "below", "above", "velocity"),
+    [
+        ("a box on a roller", roller("low", 0.0), box("top", "0 0 .0901", ".03 .03 .05", 0.3), (0.05, 0, 0, 0, 2.5)),
+        ("a plank on one", roller("low", 0.0), box("top", "0 0 .0451", ".15 .04 .005", 0.3), (0.1, 0, 0, 0, 5)),
+        ("a box on a ball", ball("low", "0 0 .02", 0.02, 0.1), box("top", ".002 0 .0701", ".03 .03 .03", 0.3), (0.0,)),
+        (
+            "a cup on a marble",
+            ball("low", "0 0 .008", 0.008, 0.1),
+            free("top", ".004 0 .0161", cup_geoms(0.035)),
+            (0.0,),
+        ),
+    ],
+)
+def test_what_tips_off_something_that_rolls_topples_until_it_lies(
+    what: str, below: str, above: str, velocity: tuple[float, ...]
+) -> None:
+    timeline = watch(world(FLOOR + below + above), 1.2, thrown(*velocity))
+    told = the(timeline, "tipping(top)")
+    assert (told["edge"], told["result"]) == ("low", "over"), what
+    ((_, end),) = times(timeline, "toppling(top)")
+    lands = min(start for start, _ in times(timeline, "supports(floor,top)"))
+    # What goes off the edge before is no longer borne by it.
+    assert min(lands, max(end for _, end in times(timeline, "supports(low,top)"))) == pytest.approx(end, abs=0.06), what
+
+
+def test_what_leans_on_something_that_rolls_away_tips_back_about_its_other_edge() -> None:
+    cup = free("cup", "0 0 .0092", cup_geoms(0.035), f"0 {-math.degrees(math.asin(0.016 / 0.06)):.2f} 0")
+    timeline = watch(world(FLOOR + ball("low", ".029 0 .008", 0.008, 0.1) + cup), 1.0, thrown(0.25, 0, 0, 0, 32))
+    told = the(timeline, "tipping(cup)")
+    assert (told["edge"], told["result"]) == ("floor", "back")
+
+
+def test_a_plank_that_rolls_on_its_way_on_two_rollers_does_not_tip() -> None:
+    here = roller("r1", -0.08) + roller("r2", 0.08) + box("plank", "0 0 .0449", ".15 .04 .005", 0.3)
+    timeline = watch(world(FLOOR + here), 0.6, thrown(0.1, 0, 0, 0, 5, 0, 0.1, 0, 0, 0, 5, 0, 0.2))
+    assert {"moving(plank)", "moving(r1)", "moving(r2)"} <= of_type(timeline, "moving")
+    assert not of_type(timeline, "tipping", "toppling")
+
+
 def test_what_goes_over_tells_how_far_beyond_its_balance_it_came() -> None:
     timeline = watch(world(FLOOR + BOX + finger(0.18, -0.05)), 5.0, pushing(1.1))
     assert the(timeline, "toppling(box)")["margin"] == pytest.approx(math.pi / 2 / BALANCE, rel=0.05)

@@ -12,7 +12,7 @@ from prolepsis.fluents.observation import Observation
 from prolepsis.fluents.solids.burden import own_centre
 from prolepsis.fluents.solids.contact import FLICKER
 from prolepsis.fluents.solids.touch import UNDER_COSINE, touches
-from prolepsis.geometry.rotations import cross, rotate, rotate_back
+from prolepsis.geometry.rotations import angle_between, cross, rotate, rotate_back
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 from prolepsis.geometry.solids import bounded
 
@@ -22,6 +22,8 @@ ROLLING = 0.25
 """Speed of the point of contact within the body over that of its centre about that point [1], from which it rolls: a
 ball has 1, an edge that is rounded by a tenth of the height 0.1."""
 
+BENEATH = 0.5
+"""Share of its turning [1] by which the normal of what presses on a body turns in its frame when it rolls beneath."""
 RESTING = 0.1
 """What is borne as near as this to where it turned, as a share of the height of its centre [1], rests on its edge."""
 
@@ -65,7 +67,8 @@ class Standing:
         return np.minimum(*(_norms(_change(axis, before, after)) for axis in (self.upright, self.up)))
 
     def on_edge(self, dt: float) -> BoolArray:
-        """Return whether it turns about a point that stays where it is in the body, or in what is below, (T,).
+        """Return whether it turns about a point that stays where it is in the body, or in what is below, or lies there
+        with a face that stays the same, as a board does on a ball that rolls, shape (T,).
 
         At its landing the point jumps, so the steadier of half a window before and after each tick counts.
         """
@@ -89,7 +92,8 @@ class Standing:
         # Of what is long and borne at one end, only the distance of its middle from the axis counts.
         arm = self.centre - self.point
         arm -= np.einsum("tc,tc->t", arm, axis)[:, None] * axis
-        return least < ROLLING * _norms(arm) * size
+        faces = _norms(_change(self.normal, before, after)) < ROLLING * size
+        return (least < ROLLING * _norms(arm) * size) | (faces & (size > 0))
 
 
 def standings(observation: Observation, unit: int) -> Iterator[Standing]:
@@ -119,19 +123,34 @@ def standings(observation: Observation, unit: int) -> Iterator[Standing]:
         mask[known] = True
         point, up = (_means(tick, press[here], each[here], total)[known] for each in (contacts.point[rows], normal))
         base = log.poses[:, below]
-        stand = rotate_back(base[known[0], 3:], observation.up)
+        # What rolls beneath it does not take it along.
+        turned = np.repeat(base[known[:1]], count, axis=0) if _rolls(base, up, known) else base
+        stand = rotate_back(turned[known[0], 3:], observation.up)
         yield Standing(
             unit=unit,
             below=below,
             pressing=mask,
             touching=mask_of(debounce(mask, observation.dt, gap=FLICKER), count),
-            upright=rotate_back(pose[:, 3:], rotate(base[:, 3:], stand)),
+            upright=rotate_back(pose[:, 3:], rotate(turned[:, 3:], stand)),
             up=rotate_back(pose[:, 3:], observation.up),
             point=_held(rotate_back(pose[known, 3:], point - pose[known, :3]), known, count),
             point_below=_held(rotate_back(base[known, 3:], point - base[known, :3]), known, count),
             normal=_held(rotate_back(pose[known, 3:], up), known, count),
             centre=own_centre(log.things[unit]),
         )
+
+
+def _rolls(base: FloatArray, normal: FloatArray, known: IntArray) -> bool:
+    """Return whether a body rolls beneath what presses on it: it turns, and with it the place at which that presses.
+
+    Args:
+        base: Poses of the body, shape (T, 7).
+        normal: Where that presses, in the world, shape (K, 3).
+        known: When it does, shape (K,).
+    """
+    path = _norms(np.diff(rotate_back(base[known, 3:], normal), axis=0)).sum()
+    turning = angle_between(base[known[:-1], 3:], base[known[1:], 3:]).sum()
+    return bool(path > BENEATH * turning > 0.0)
 
 
 def _means(tick: IntArray, weight: FloatArray, values: FloatArray, total: FloatArray) -> FloatArray:

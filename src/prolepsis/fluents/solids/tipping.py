@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -48,6 +48,8 @@ OUTER = 0.2
 """Corners that are nearer to the edge, as a share of the furthest [1], do not tell how its face lies ..."""
 FAR = 0.5
 """... and some that are further than this lie in it, too [1]."""
+DOWN = 0.8
+"""What has turned by this share of its greatest angle [1] when something else begins to bear it is down."""
 FURTHEST = 100.0
 """Margin of what is beyond its edge at once, as it is pushed over one [1]."""
 
@@ -183,10 +185,17 @@ def _tips(observation: Observation, bearer: Bearer, bearers: list[Bearer]) -> It
     for start, end in _held_up(standing, several, free & about & alone).tolist():
         for first, last in _about_one(standing, start, end, on_edge):
             if borne[first:last].any() and _stood(slow & ~turning, first, dt):
-                tip = _measured(observation, standing, bearers, (first, last), on_edge, about)
+                tip = _landed(_measured(observation, standing, bearers, (first, last), on_edge, about), ~alone)
                 turned = float(tip.angle[start:end].max())
                 if tip.margin > 0 and tip.greatest >= LEAST_ANGLE and not _rolls(tip, turned, on_edge):
                     yield tip
+
+
+def _landed(tip: Tip, others: BoolArray) -> Tip:
+    """Return what goes over until something else begins to bear it: it may well creep on from there."""
+    begins = [tick for tick in (runs(others[tip.start : tip.end])[:, 0] + tip.start).tolist() if tick > tip.start]
+    down = [tick for tick in begins if tip.angle[tick] >= DOWN * tip.greatest]
+    return replace(tip, end=down[0]) if tip.margin >= 1 and down else tip
 
 
 def _about_one(standing: Standing, start: int, end: int, on_edge: BoolArray) -> Iterator[tuple[int, int]]:
