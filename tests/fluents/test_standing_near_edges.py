@@ -46,6 +46,26 @@ def test_what_hangs_over_the_edge_of_a_table_as_far_as_it_can_nearly_toppled(
         assert timeline.ask("near_miss(toppling(b), T, M), M > 0.8, holds(supports(table1, b), T)")
 
 
+@pytest.mark.parametrize(("inside", "share"), [(0.0001, 0.951), (0.0003, 0.860), (0.0006, None)])
+def test_the_edge_of_a_small_thing_is_found_as_exactly_as_that_of_a_large_one(
+    inside: float, share: float | None
+) -> None:
+    tile = block("b", (0.008, 0.008, 0.004), f":on :table1 ; :x {EDGE - inside!r}")
+    margins = missed(recognize(run(TABLE + tile, duration=0.6)), "toppling")
+    assert margins == ([pytest.approx(share, abs=0.002)] if share else [])
+
+
+@pytest.mark.parametrize(("middle", "share"), [(0.0, None), (0.08, None), (0.095, 0.905), (0.103, 0.981)])
+def test_what_stands_on_two_supports_stands_on_all_that_is_between_them(middle: float, share: float | None) -> None:
+    # At last its middle is above the outer half of one of them, which bears it all; the other would if it leant back.
+    piers = "".join(block(n, (0.01, 0.1, 0.1), f":on :table1 ; :x {x!r}") for n, x in (("p", -0.1), ("q", 0.1)))
+    board = block("b", (0.5, 0.1, 0.01), f":on :p, :q ; :x {middle!r}")
+    timeline = recognize(run(TABLE + piers + board, duration=0.6))
+    assert not timeline.select(type="toppling")
+    margins = [fact.evidence["margin"] for fact in timeline.near_misses if str(fact.term) == "toppling(b)"]
+    assert margins == ([pytest.approx(share, abs=0.005)] if share else [])
+
+
 def test_what_hangs_over_too_far_topples_and_nearly_did_not() -> None:
     timeline = recognize(run(TABLE + block("b", (0.1, 0.1, 0.06), f":on :table1 ; :x {EDGE + 0.001!r}"), duration=0.8))
     assert timeline.select(type="toppling")

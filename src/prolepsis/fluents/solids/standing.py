@@ -17,14 +17,15 @@ from prolepsis.fluents.margins import NearMiss, margin_of
 from prolepsis.fluents.observation import Observation, is_loose
 from prolepsis.fluents.registry import event
 from prolepsis.fluents.solids.attachment import attachment_runs
+from prolepsis.fluents.solids.base import GAP, Bearer, overhang, radius_of
 from prolepsis.fluents.solids.contact import is_stuff
 from prolepsis.fluents.solids.motion import moving_runs
 from prolepsis.fluents.solids.support import supporters
 from prolepsis.fluents.solids.tipping import tips
 from prolepsis.fluents.solids.touch import UNDER_COSINE, touches
-from prolepsis.geometry.rotations import rotate, rotate_back
-from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
-from prolepsis.geometry.solids import Solid, bounded, solid_of
+from prolepsis.geometry.rotations import rotate_back
+from prolepsis.geometry.shape import FloatArray, IntArray
+from prolepsis.geometry.solids import bounded, solid_of
 from prolepsis.log.near import MARGIN, NEAR
 
 REST = 0.1
@@ -33,16 +34,12 @@ LOOK = 0.5
 """Time over which forces at rest are taken together [s]: what stands changes by what is put or poured on it."""
 FLAT = 0.99
 """Cosine of the angle to their mean, 8 degrees, within which what bears a thing is one plane."""
-GAP = 0.0005
-"""Gap between two faces that lie on each other [m]: contacts sink in by less."""
-DIRECTIONS = 24
-"""Directions, evenly about, in which the edge is looked for."""
-STEPS = 48
-"""Points on each of them, before it is halved on to a micrometre."""
+MOVED = 5.0e-5
+"""What presses within this distance of where it did [m] does so still."""
+BARELY = 0.01
+"""Share of all that bears a thing [1] below which one that touches it does not tell how high its base is."""
 BORNE = 0.9
 """Least share of its weight [1] that its base bears: where something presses tells nothing if a liquid bears it."""
-LEAST_BASE = 0.05
-"""Least width of a base, as a share of the greatest radius of what stands on it [1]: less is an edge or a point."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -136,11 +133,12 @@ def _stands(observation: Observation, unit: int) -> Iterator[Stand]:
             continue
         holds = np.minimum(friction[unit], friction[other[here]])
         slides = float(np.linalg.norm(along[here].sum(axis=0)) / max(float(weight @ holds), 1e-12))
-        pose = log.poses[start, unit]
+        pose = log.poses[end - 1, unit]
         point = rotate_back(pose[3:], weight @ contacts.point[rows[here]] / weight.sum() - pose[:3])
-        if last is None or np.linalg.norm(point - last[0]) > GAP / 10:
-            below = [(pose, solids), *_bodies(observation, np.unique(other[here]), start)]
-            last = point, _overhang(point, rotate_back(pose[3:], mean), below)
+        if last is None or np.linalg.norm(point - last[0]) > MOVED:
+            now = other[here], weight, contacts.point[rows[here]]
+            below = _bearers(observation, unit, end - 1, now)
+            last = point, overhang(point, rotate_back(pose[3:], mean), (pose, solids), below) if below else 0.0
         yield Stand(start=start, end=end, overhang=last[1], slope=slides)
 
 
@@ -157,58 +155,45 @@ def _looks(observation: Observation, unit: int, borne: list[IntArray]) -> Iterat
             yield first, min(first + step, end)
 
 
-Body = tuple[FloatArray, tuple[Solid, ...]]
-"""The pose of a thing, shape (7,), and its solids."""
-
-
-def _bodies(observation: Observation, things: IntArray, tick: int) -> Iterator[Body]:
-    for thing in map(int, things):
-        solids = tuple(solid_of(geom) for geom in observation.log.things[thing].shape.geoms)
-        if solids:  # Of what has an outline alone it is not looked for.
-            yield observation.log.poses[tick, thing], solids
-
-
-def _overhang(point: FloatArray, normal: FloatArray, bodies: list[Body]) -> float:
-    """Return how far a point is from the middle of a base to its edge, where it is nearest to that [1].
+def _bearers(
+    observation: Observation, unit: int, tick: int, contacts: tuple[IntArray, FloatArray, FloatArray]
+) -> list[Bearer]:
+    """Return what bears a unit, or would as soon as it leans that way, and where.
 
     Args:
-        point: Where something presses, in its frame [m], shape (3,).
-        normal: Unit normal of its base, in its frame, shape (3,).
-        bodies: It and all that bears it; its base is where it touches one of these.
+        observation: The log.
+        unit: What stands.
+        tick: When.
+        contacts: With what it is in contact, by which force, and where in the world.
     """
-    solids = bodies[0][1]
-    reach = 2 * max(radius_of(solids), float(np.linalg.norm(point)))
-    first = np.linalg.svd(normal[None])[2][1]
-    angles = np.arange(DIRECTIONS) * (2 * np.pi / DIRECTIONS)
-    directions = np.cos(angles)[:, None] * first + np.sin(angles)[:, None] * np.cross(normal, first)
-    far = np.linspace(0.0, reach, STEPS + 1)
-    touching = _touching(point + far[None, :, None] * directions[:, None], bodies)
-    # The base is as wide as its outermost points, be it hollow between them.
-    reached = touching.any(axis=1)
-    low = np.where(reached, far[STEPS - np.argmax(touching[:, ::-1], axis=1)], 0.0)
-    high = low + reach / STEPS
-    while float((high - low).max()) > 1e-6:
-        middle = (low + high) / 2
-        inside = _touching(point + middle[:, None] * directions, bodies)
-        low, high = np.where(inside, middle, low), np.where(inside, high, middle)
-    width = low + np.roll(low, DIRECTIONS // 2)
-    wide = width >= LEAST_BASE * reach / 2
-    return float((1 - 2 * low / np.maximum(width, 1e-12))[wide].max()) if wide.all() else 0.0
+    below, weight, points = contacts
+    pose, found = observation.log.poses[tick, unit], list[Bearer]()
+    for thing in map(int, _near(observation, unit, tick)):
+        own = below == thing
+        if weight[own].sum() < BARELY * weight.sum():
+            own[:] = True
+        middle = weight[own] @ points[own] / weight[own].sum()
+        solids = tuple(solid_of(geom) for geom in observation.log.things[thing].shape.geoms)
+        found.append(
+            Bearer(body=(observation.log.poses[tick, thing], solids), point=rotate_back(pose[3:], middle - pose[:3]))
+        )
+    return found
 
 
-def radius_of(solids: tuple[Solid, ...]) -> float:
-    """Return the greatest distance of solids from the origin of their frame [m]."""
-    return max(float(np.abs(np.concatenate(solid.bounds())).max()) for solid in solids)
+def _near(observation: Observation, unit: int, tick: int) -> IntArray:
+    """Return the other bodies that a unit may touch. Of what has an outline alone it is not looked for."""
+    reach, where = observation.of(reaches), observation.log.poses[tick, :, :3]
+    apart = np.linalg.norm(where - where[unit], axis=1) - reach
+    own = observation.unit == unit
+    carried = observation.log.carrier[tick] != np.arange(len(own))
+    return np.flatnonzero((apart <= reach[unit] + GAP) & ~own & ~carried & (reach >= 0))
 
 
-def _touching(points: FloatArray, bodies: list[Body]) -> BoolArray:
-    """Return which points, in the frame of the first body, are at the surface of it and of another, shape (...)."""
-    pose = bodies[0][0]
-    flat = points.reshape(-1, 3)
-    mine = np.min([solid.distance(flat) for solid in bodies[0][1]], axis=0) <= GAP
-    world = rotate(pose[3:], flat) + pose[:3]
-    theirs = np.zeros(len(flat), dtype=np.bool_)
-    for there, solids in bodies[1:]:
-        local = rotate_back(there[3:], world - there[:3])
-        theirs |= np.min([solid.distance(local) for solid in solids], axis=0) <= GAP
-    return (mine & theirs).reshape(points.shape[:-1])
+def reaches(observation: Observation) -> FloatArray:
+    """Return how far each solid thing reaches from the origin of its frame [m]; -1 for others, shape (N,)."""
+    found = np.full(len(observation.log.things), -1.0)
+    for i, thing in enumerate(observation.log.things):
+        if thing.shape.geoms and not is_stuff(observation, int(observation.unit[i])):
+            solids = bounded(thing.shape)
+            found[i] = np.sqrt(3) * radius_of(solids) if len(solids) == len(thing.shape.geoms) else np.inf
+    return found
