@@ -63,6 +63,8 @@ def nearly_toppling(observation: Observation) -> Iterator[NearMiss]:
     for tip in observation.of(tips):
         over.setdefault(tip.standing.unit, []).append((tip.start, tip.end))
     for unit, several in observation.of(stands).items():
+        if observation.has_role(unit, "Piece"):
+            continue  # What lies about in shards rocks at most.
         margins = [stand.overhang for stand in several]
         yield from _nearly(observation, "toppling", unit, several, margins, over.get(unit, []))
 
