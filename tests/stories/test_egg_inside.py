@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.scenes import run
+from tests.scenes import falling_egg, run
 
 from prolepsis.fluents import recognize
 from prolepsis.log.log import FREE, PARKED
@@ -86,3 +86,12 @@ def test_whether_a_yolk_bursts_depends_on_its_membrane(force: float, breaks: boo
     timeline = recognize(log)
     assert bool(timeline.ask("occurs(breaking(yolk1), _), holds(broken(yolk1), _)")) == breaks
     assert timeline.ask("occurs(breaking(egg1), _)")
+
+
+@pytest.mark.parametrize(("height", "margin"), [(0.18, 0.92), (0.26, 1.11)])
+def test_a_yolk_that_edges_nearly_reach_was_nearly_pierced(height: float, margin: float) -> None:
+    timeline = recognize(run(falling_egg(height), duration=0.35))
+    told = timeline.facts if margin > 1 else timeline.near_misses
+    (fact,) = (fact for fact in told if str(fact.term) == "broken(yolk1)")
+    assert fact.evidence["margin"] == pytest.approx(margin, abs=0.03)
+    assert ("breaking(yolk1)" in {str(fact.term) for fact in timeline.facts}) == (margin > 1)

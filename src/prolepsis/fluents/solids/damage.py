@@ -19,6 +19,9 @@ from prolepsis.log.timeline import Fact
 BURST = 0.01
 """Time between two detachments within one burst of breaking [s]: a crack runs through a shell in far less."""
 
+LOADS = ("load", "membrane_load")
+"""Channels that are 1 where something breaks."""
+
 
 @event("breaking", "o")
 def breaking(observation: Observation) -> Iterator[Fact]:
@@ -94,7 +97,8 @@ def strength_margin(observation: Observation, whole: int) -> dict[str, float]:
     detachments, rows = observation.log.detachments, observation.of(detached_rows)[whole]
     first = int(detachments.tick[rows].min())
     force = float(detachments.force[rows][detachments.tick[rows] == first].max())
-    margin = margin_at(observation, whole, members(observation, whole), "load", first, force)
+    parts = members(observation, whole)
+    margin = max(margin_at(observation, whole, parts, channel, first, force) for channel in LOADS)
     return {MARGIN: margin} if margin else {}
 
 
@@ -102,7 +106,8 @@ def _nearly_broken(observation: Observation) -> Iterator[NearMiss]:
     """Yield when the load of a whole's bonds came near their strength before one detached."""
     log, tops, broke = observation.log, observation.of(_tops), observation.of(detached_rows)
     for i, thing in enumerate(log.things):
-        load = log.channels.get(f"{thing.name}.load")
+        loads = [log.channels.get(f"{thing.name}.{channel}") for channel in LOADS]
+        load = next((each for each in loads if each is not None), None)
         if load is None:
             continue
         first = int(log.detachments.tick[broke[tops[i]]].min()) if tops[i] in broke else observation.tick_count

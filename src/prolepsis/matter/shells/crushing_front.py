@@ -16,6 +16,9 @@ from prolepsis.geometry.shape import BoolArray, FloatArray
 from prolepsis.scene.nearby import distance_to
 from prolepsis.scene.running import Running
 
+FURTHEST = 100.0
+"""How deep what already touches the yolk goes, over how deep that lies [1]."""
+
 
 @dataclass(kw_only=True, slots=True)
 class Crushed:
@@ -66,13 +69,17 @@ class CrushingFront:
             found |= distance_to(state, each.by, centres) < each.all
         return found
 
-    def pierces(self, state: Running, middle: FloatArray, radius: float) -> bool:
-        """Return whether edges are driven into a floating ball of a radius [m] about a world point [m], shape (3,).
+    def pierces(self, state: Running, middle: FloatArray, radius: float) -> float:
+        """Return how deep edges are driven in, over how deep a floating ball lies, of a radius [m] about a world point.
 
-        What presses slowly pushes it aside.
+        From 1 on they pierce it. What presses slowly pushes it aside.
         """
-        fast = [each for each in self.crushed if each.blow >= each.all]
-        return any(float(distance_to(state, each.by, middle[None])[0]) < each.blow + radius for each in fast)
+        share = 0.0
+        for each in self.crushed:
+            if each.blow >= each.all > 0.0:
+                deep = float(distance_to(state, each.by, middle[None])[0]) - radius
+                share = max(share, each.blow / max(deep, each.blow / FURTHEST))
+        return share
 
 
 def front_growth(beyond: float) -> float:

@@ -100,7 +100,9 @@ class Membrane(Controller):
             return
         positions = particles.position[self._own].copy()
         front, self._front = self._front, None
-        if front and front.pierces(state, positions.mean(axis=0), self._radius):
+        pierced = front.pierces(state, positions.mean(axis=0), self._radius) if front else 0.0
+        if front and pierced >= 1.0:
+            state.set_attribute(self._name, "membrane_load", pierced)
             self._tear(state, front.force)
             return
         if np.array_equal(positions, self._positions):
@@ -114,8 +116,10 @@ class Membrane(Controller):
         force = float(mass @ np.linalg.norm(pull, axis=1)) / 2
         self.tension = force / (2 * math.pi * self._radius)
         if self.tension > self.strength:
+            # What the tension would have come to nobody knows: it is as it was.
             self._tear(state, force)
             return
+        state.set_attribute(self._name, "membrane_load", max(self.tension / self.strength, pierced))
         self._positions, self._push = positions, MAX_STEP * pull
         particles.velocity[self._own] += self._push
 

@@ -41,7 +41,7 @@ class Shells(Kind):
 
     order = 20
     claims = "Shelled"
-    roles = frozenset({"Breakable"})
+    roles = frozenset({"Breakable", "Membraned"})
     quantities = MappingProxyType(
         {
             **dict.fromkeys(("membraneForce", "probeRadius"), "ShellContent"),
@@ -68,6 +68,13 @@ class Shells(Kind):
             doc="depth of its deepest dent so far, over that at which what lines its shell tears and it opens [1]; "
             "once it has opened, how deep it would have become",
             role="Breakable",
+            default=True,
+        ),
+        Channel(
+            name="membrane_load",
+            doc="the greater of the tension round it over that at which it tears, and of how deep a blow drives edges "
+            "into its egg over how deep it lies [1]",
+            role="Membraned",
             default=True,
         ),
         Channel(name="broken", doc="1 once one of its bonds has detached, else 0", begins="BrokenThing"),
