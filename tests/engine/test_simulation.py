@@ -45,7 +45,7 @@ def test_monitors_change_nothing() -> None:
 
 def test_what_is_logged_can_be_chosen_per_object() -> None:
     log = run(falling_egg(0.05), duration=0.02, monitors={"egg1": ["height", "speed"]})
-    assert set(log.channels) == {"egg1.height", "egg1.speed"}
+    assert {name for name in log.channels if name.startswith("egg1.")} == {"egg1.height", "egg1.speed"}
     assert log.channels["egg1.speed"][-1] == pytest.approx(9.81 * 0.019, rel=0.1)
     assert log.channels["egg1.height"][0] == pytest.approx(0.072)
 
@@ -166,7 +166,7 @@ def test_what_a_vessel_is_said_to_contain_is_put_into_it() -> None:
 
 REFUSED = [
     (":floor a :Floor . :ball1 a :Ball ; :on :floor ; :radius 0.0001 .", "ball1 is too small or light: "),
-    (":floor a :Floor . :egg1 a :Egg ; :on :floor ; :length 0.5 ; :breadth 0.01 .", "allowed: a breadth of 0.5 to 2"),
+    (":floor a :Floor . :egg1 a :Egg ; :length 0.5 ; :breadth 0.01 ; :mass 0.026 .", "allowed: a breadth of 0.5 to 2"),
     (":floor a :Floor . :egg1 a :Egg ; :on :floor ; :broken true .", "egg1 is broken at the start"),
     (":floor a :Floor . :hand1 a :Gripper ; :on :floor .", "a Gripper does not rest on anything; state its z"),
 ]
