@@ -32,7 +32,7 @@ def board(length: float, width: float, height: float, rest: str = ":x 0.0") -> s
 FAST = {
     "a cube of 1 cm from 8 m": (TABLE + block("b", (0.01, 0.01, 0.01), ":z 8.0"), 1.4, "table1"),
     "a plate of 2 mm from 10 m": (TABLE + block("b", (0.1, 0.1, 0.002), ":z 10.0"), 1.6, "table1"),
-    "a block of 100 kg from 20 m": (TABLE + block("b", (0.05, 0.05, 0.05), ":z 20.0 ; :mass 100.0"), 2.2, "table1"),
+    "a block of 100 kg from 20 m": (TABLE + block("b", (0.15, 0.15, 0.15), ":z 20.0 ; :mass 100.0"), 2.2, "table1"),
     "a plank from 10 m with one end over the table": (
         TABLE + block("b", (0.8, 0.02, 0.01), ":x 0.55 ; :z 10.0"),
         1.6,
@@ -135,14 +135,14 @@ PRESSED = {
     "a cube of 10 g under 100 kg": (
         TABLE
         + block("e", (0.05, 0.05, 0.05), ":on :table1 ; :mass 0.01")
-        + block("b", (0.05, 0.05, 0.05), ":on :e ; :mass 100.0"),
+        + block("b", (0.15, 0.15, 0.15), ":on :e ; :mass 100.0"),
         "table1",
     ),
     "a light cube that 100 kg squeeze out below a board of 4 mm": (
         FLOOR
         + board(0.3, 0.3, 0.004)
         + block("e", (0.02, 0.02, 0.02), ":on :board ; :mass 0.002")
-        + block("c", (0.1, 0.1, 0.1), ":on :e ; :mass 100.0"),
+        + block("c", (0.15, 0.15, 0.15), ":on :e ; :mass 100.0"),
         "(e|board)",
     ),
 }
@@ -157,7 +157,7 @@ def test_what_is_pressed_into_something_is_no_answer(what: str) -> None:
 
 
 SHEET = block("sheet", (0.2, 0.2, 0.0001), ":on :table1")
-HEAVY = block("b", (0.1, 0.1, 0.1), ":on :sheet ; :mass 100.0")
+HEAVY = block("b", (0.15, 0.15, 0.15), ":on :sheet ; :mass 100.0")
 
 
 @pytest.mark.parametrize(

@@ -74,14 +74,14 @@ SCENES: dict[str, str] = {
     "a tower of 5 cubes of 30 cm": FLOOR + tower(5, (0.3, 0.3, 0.3), on="floor"),
     "a tower of 10 steel cubes": TABLE + tower(10, (0.05, 0.05, 0.05), ":density 7800.0"),
     **{
-        f"{heavy:g} kg on {light:g} kg": TABLE + masses(0.05, light, heavy)
+        f"{heavy:g} kg on {light:g} kg": TABLE + masses(0.07, light, heavy)
         for light, heavy in ((1.0, 1.0), (0.1, 1.0), (0.1, 3.0), (0.1, 10.0), (0.01, 10.0))
     },
     **{
-        f"{light:g} kg on {heavy:g} kg": TABLE + masses(0.05, heavy, light)
+        f"{light:g} kg on {heavy:g} kg": TABLE + masses(0.07, heavy, light)
         for light, heavy in ((0.1, 1.0), (0.1, 10.0), (0.01, 10.0))
     },
-    "a light cube between two heavy ones": TABLE + masses(0.05, 10.0, 0.05, 10.0),
+    "a light cube between two heavy ones": TABLE + masses(0.07, 10.0, 0.05, 10.0),
     "four cubes, each a third of the next": TABLE + masses(0.05, 0.1, 0.3, 0.9, 2.7),
     "a pyramid of six cubes": TABLE
     + "".join(cube(f"b{k}", 0.05, f":on :table1 ; :y {(k - 1) * 0.052:.3f}") for k in range(3))

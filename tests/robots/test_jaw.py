@@ -26,11 +26,13 @@ PLAN = SCENARIO[SCENARIO.index('"sequence') : SCENARIO.index("\nseed")]
 SIZE = ":length 0.03 ; :width 0.03 ; :height 0.03 ;"
 
 
-def projected(folder: Path, *, block: str = SIZE, plan: str = PLAN, force: float = 10.0) -> Projection:
+def projected(
+    folder: Path, *, block: str = SIZE, plan: str = PLAN, force: float = 10.0, mass: float = 0.05
+) -> Projection:
     """Return what the arm does with a block of which this is said in Turtle."""
     shutil.copy(EXAMPLES / "own_jaw.xml", folder)
     assert SIZE in SITUATION and PLAN in SCENARIO
-    situation = SITUATION.replace(SIZE, block)
+    situation = SITUATION.replace(SIZE, block).replace(":mass 0.05", f":mass {mass}")
     (folder / "own_jaw.ttl").write_text(situation, encoding="utf-8")
     scenario = SCENARIO.replace(PLAN, plan).replace("value = 10", f"value = {force}")
     (folder / "own_jaw.toml").write_text(scenario, encoding="utf-8")
@@ -149,5 +151,5 @@ def test_the_range_of_a_jaw_ends_where_its_pads_meet(tmp_path: Path) -> None:
 
 
 def test_what_is_thinner_than_the_closed_jaw_is_not_graspable(tmp_path: Path) -> None:
-    made = projected(tmp_path, block=SIZE.replace("0.03", "0.0015"))
+    made = projected(tmp_path, block=SIZE.replace("0.03", "0.0015"), mass=6.25e-6)
     assert outcomes(made) == {"grasp": "not_graspable", "reach": "not_graspable"}
