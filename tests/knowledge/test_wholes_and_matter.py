@@ -42,6 +42,7 @@ REFUSED = {
     ":egg1 a :Egg ; :length 100 .": r"egg1: its mass, 0\.059 kg, in .* 0\.101 m3 .*at least 80 and at most 1600",
     ":egg1 a :Egg ; :mass 0.001 .": r"egg1: its mass, 0\.001 kg, in its volume, .* 17\.3 kg/m3",
     ":egg1 a :QuailEgg ; :mass 0.06 .": r"egg1: its mass, 0\.06 kg, .*; state both mass and extents",
+    ":ball1 a :Ball ; :mass 0.2 ; :radius 0.01 .": r"ball1: its mass, 0\.2 kg, .* 30000 kg/m3 for a Ball$",
     ":block1 a :Block ; :mass 100 .": r"block1: its mass, 100 kg, .*at least 0\.1 and at most 30000 kg/m3 for a Block",
     ":cup1 a :Cup ; :mass 100 .": r"cup1: its mass, 100 kg, in its volume, .*turned outline",
     ":box1 a :EggBox , :Vessel .": r"no EggBox is a Vessel",

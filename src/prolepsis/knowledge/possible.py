@@ -82,9 +82,11 @@ def _refuse_no_matter(base: KnowledgeBase, name: str, where: Callable[[str, str]
     limits = (limit for c in base.types.classes[name] for limit in base.vocabulary.classes[c].limits)
     for bound in (base.vocabulary.properties["density"], *(each for each in limits if each.name == "density")):
         if not bound.admits(density):
+            one = not all(any(base.stated(name, each) is not None for each in told) for told in (("mass",), _EXTENTS))
             raise KnowledgeError(
                 f"{where(name, stated)}: {name}: its mass, {mass:.3g} kg, in its volume, {volume:.3g} m3 ({formula}), "
-                f"is {density:.3g} kg/m3: must be {bound.bounds} for a {base.kind(name)}; state both mass and extents"
+                f"is {density:.3g} kg/m3: must be {bound.bounds} for a {base.kind(name)}"
+                f"{'; state both mass and extents' if one else ''}"
             )
 
 
