@@ -54,6 +54,12 @@ OVERLOADED = r"no, but overloading\(cup1,4\.9\) occurred, and broken is told of 
         ("\\+ holds(contains(egg1, cup1), _)", r"contains\(cup1,egg1\) is so, the other way round"),
         ("\\+ holds(supports(box1, cup1), 5)", "no, but the log tells nothing of 5 s"),
         ("\\+ holds(broken(box1), _)", r"no, but pushing\(hand1,box1\) was not_reached"),
+        (
+            "\\+ (holds(broken(egg1), T), holds(contains(cup1, egg1), T))",
+            "no, but one interval, the very same, is asked",
+        ),
+        ("\\+ holds(broken(egg1), 0.7-1)", "no, but an interval is the whole of it"),
+        ("aggregate_all(count, holds(broken(X), 2.0), N)", r"no, but there is broken\(egg1\) over 0\.5-2\.0"),
         ("\\+ occurs(falling(ball1), _)", r"rolling\(ball1\) still went on when the log ended"),
     ],
 )

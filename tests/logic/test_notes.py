@@ -77,6 +77,32 @@ def test_no_says_what_is_told_otherwise(goal: str, told: str) -> None:
 @pytest.mark.parametrize(
     ("goal", "told"),
     [
+        (
+            "holds(broken(egg1), T), occurs(colliding(egg1, _), T)",
+            r"one interval, the very same, is asked of broken\(egg1\) over 0\.5-2\.0, colliding\(egg1,cup1\) over",
+        ),
+        ("holds(broken(X), S-E), holds(contains(Y, _), S-E)", r"one interval, .*contains\(cup1,liq1\) over 0\.0-1\.0;"),
+        ("holds(broken(egg1), T), evidence(colliding(X, _), T, speed, V), V < 2", "one interval, the very same"),
+        ("occurs(lifting(H, D), T), holds(F, T), T = S-_, S > 0", "one interval, the very same"),
+        ("holds(broken(egg1), 0.7-1.0)", r"an interval is the whole of it, as of broken\(egg1\) over 0\.5-2\.0; write"),
+        ("holds(broken(X), 0-2)", r"an interval is the whole of it, as of broken\(egg1\)"),
+        ("holds(broken(egg1), 0.7-E)", r"an interval is the whole of it, as of broken\(egg1\)"),
+        ("holds(broken(egg1), S-1.9)", r"an interval is the whole of it, as of broken\(egg1\)"),
+        (
+            "holds(broken(egg1), 2)",
+            r"there is broken\(egg1\) over 0\.5-2\.0, where the log ends; no interval contains its end",
+        ),
+        ("holds_at(broken(X), 2.0)", r"there is broken\(egg1\) over 0\.5-2\.0, where the log ends"),
+    ],
+)
+def test_no_says_what_is_so_over_another_interval(goal: str, told: str) -> None:
+    with pytest.warns(Note, match=f"^no, but {told}"):
+        assert RUN.ask(goal) == []
+
+
+@pytest.mark.parametrize(
+    ("goal", "told"),
+    [
         ("holds(broken(egg1), S-E), D = E-S", r"D = 2\.0-0\.5 is not computed; write D is"),
         ("holds(broken(egg1), S-E), D = S*2", r"D = 0\.5\*2 is not computed"),
         ("findall(X, holds(broken(Y), T), L)", "X is collected, and stands in no goal that gives it a value"),
@@ -105,6 +131,11 @@ def test_an_answer_says_what_it_is_not(goal: str, told: str) -> None:
         "occurs(colliding(_, _), T1), holds(broken(egg1), T2), after(T2, T1), 1 > 2",
         "eventT(E, X), X = lifting, X == colliding",
         "holds(broken(X), T), before(T, 99-100), T = 0-1",
+        "holds(broken(egg1), 0.1-0.4)",
+        "holds(contains(cup1, liq1), 2)",
+        "occurs(lifting(H, _), T), evidence(lifting(H, _), T, _, V)",
+        "holds(broken(X), T), occurs(colliding(X, _), T), 1 > 2",
+        "holds(contains(X, egg1), T), occurs(colliding(egg1, X), T)",
         "(occurs(E, _) ; holds(broken(X), S-E)), fail",
     ],
 )

@@ -20,7 +20,7 @@ def of_ticks(dt: float) -> Timeline:
             for i, (a, b) in enumerate(stretches)
         ],
         dt=dt,
-        duration=2000 * dt,
+        duration=2001 * dt,  # Of what ends with the log a note says that no interval contains its end.
     )
 
 

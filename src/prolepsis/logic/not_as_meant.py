@@ -11,6 +11,12 @@ from prolepsis.logic.unknown_names import WHAT, a_kind, nearest
 from prolepsis.terms.errors import brief, brief_list
 from prolepsis.terms.terms import Term, Value, format_value
 
+ANOTHER_TIME = {
+    "shared": "one interval, the very same, is asked of {}; write T1 and T2, and allen(R, T1, T2)",
+    "whole": "an interval is the whole of it, as of {}; write S-E, and compare S and E",
+    "last": "there is {}, where the log ends; no interval contains its end",
+}
+"""What is said where it is so over another interval than was asked for."""
 TOLD = "\x1f"
 """Stands between the values that are told."""
 
@@ -45,6 +51,9 @@ def meaning_notes(read: str, goal: str, duration: float, answers: Sequence[Mappi
             if not answers:
                 stand = "allen(R, I, J) tells how two intervals stand"
                 told.append(f"no, but they begin in the same tick, and {text} asks that one begins first; {stand}")
+        elif kind in ANOTHER_TIME:
+            if not answers:
+                told.append(f"no, but {ANOTHER_TIME[kind].format(text)}")
         elif kind == "collected":
             told.append(f"{text} is collected, and stands in no goal that gives it a value")
         elif kind != "time":

@@ -94,7 +94,7 @@ def refusal(status: str, body: str, goal: str, time_limit: float, timeline: Time
             told = "gives an interval and no number to compare; write S-E for it, and compare S, E or E-S, its length"
             return GoalError(f"{brief(body)} {told}")
         case "interval":
-            told = "an interval is Start-End, with Start before End"
+            told = "an interval is Start-End, with Start before End; holds and occurs take a number, an instant, too"
             told += f"; compute it first: T is {brief(body)}" if COMPUTES.search(body) else ""
             return GoalError(f"not an interval: {brief(body)}; {told}")
         case "instant":

@@ -18,6 +18,7 @@
 :- use_module(library(lists)).
 :- use_module(library(occurs)).
 :- use_module(library(solution_sequences)).
+:- use_module(another_time).
 :- use_module(denials).
 :- use_module(runs).
 :- use_module(guard).
@@ -57,11 +58,13 @@ answers(Run, Text, Limit, Seconds, Lines) :-
     atomic_list_concat([Status|Ends], '\t', First),
     (   Answers == []
     ->  ( same_tick(Run, Kept, Name) -> Together = [Name, together, ''] ; Together = [] ),
+        another_time(Run, Kept, 2_000_000, Otherwise),
         Denied = []
     ;   Together = [],
+        Otherwise = [],
         denials(Run, Kept, Ordered, Spent, Denied)
     ),
-    append(Read, Together, ReadAll),
+    append([Read, Together, Otherwise], ReadAll),
     atomic_list_concat(ReadAll, '\t', Second),
     maplist(told_of_denied(Run), Denied, Told),
     atomic_list_concat(Told, '\x1D\', Third),
@@ -102,8 +105,10 @@ told_of_denied(Run, Goal, Told) :-
     open_ends(Run, Goal, [], Ends),
     readings(Goal, [], Readings),
     not_as_meant(Run, Goal, [], Readings, [], Read),
+    another_time(Run, Goal, 50_000, Otherwise),
+    append(Read, Otherwise, ReadAll),
     atomic_list_concat([Text|Ends], '\t', First),
-    atomic_list_concat(Read, '\t', Second),
+    atomic_list_concat(ReadAll, '\t', Second),
     atomic_list_concat([First, Second], '\x1E\', Told).
 
 not_as_meant(Run, Goal, Bindings, Readings, Variables, Read) :-
