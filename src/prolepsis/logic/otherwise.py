@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 
 from prolepsis.log.evidence_names import EVIDENCE_UNITS
 from prolepsis.log.fact_types import SYMMETRIC
@@ -12,7 +12,7 @@ from prolepsis.log.timeline import Timeline
 from prolepsis.logic.refusals import shown
 from prolepsis.terms.errors import InputError, brief, brief_list
 from prolepsis.terms.reader import parse_term
-from prolepsis.terms.terms import Term, Value, format_atom, format_value
+from prolepsis.terms.terms import Term, Value, Variable, format_atom, format_value
 
 MOST = 3
 """So much is told."""
@@ -42,6 +42,7 @@ def otherwise_note(timeline: Timeline, goal: str) -> str:
             *_other_way_round(timeline, each, each in either_way),
             *_other_number(timeline, each),
             *_other_evidence(timeline, each, words),
+            *_of_parts(timeline, each),
         )
     ]
     told = list(dict.fromkeys(told))
@@ -65,6 +66,45 @@ def _other_way_round(timeline: Timeline, asked: Term, either_way: bool) -> Itera
     facts = {*parts, *((fact.type, fact.args) for fact in lookup(timeline).of(asked.functor))}
     if (asked.functor, asked.args[::-1]) in facts and (asked.functor, asked.args) not in facts:
         yield f"{brief(format_value(Term(asked.functor, asked.args[::-1])))} is so, the other way round"
+
+
+def _of_parts(timeline: Timeline, asked: Term) -> Iterator[str]:
+    """Yield what is told of the parts of a thing, where it is told of nothing that fits the thing itself."""
+    facts = lookup(timeline).of(asked.functor)
+    orders = [asked.args, asked.args[::-1]] if asked.functor in SYMMETRIC else [asked.args]
+    if not facts or any(_fits(fact.args, order) for fact in facts for order in orders):
+        return
+    for thing in asked.args:
+        parts = _below(timeline.domain.parts, thing) if isinstance(thing, str) else set[str]()
+        wholes = [tuple(thing if each in parts else each for each in fact.args) for fact in facts] if parts else []
+        told = [
+            brief(format_value(fact.term))
+            for fact, whole in zip(facts, wholes, strict=False)
+            if any(_fits(whole, order) for order in orders)
+        ]
+        if told:
+            more = f" and {len(told) - MOST} more" if len(told) > MOST else ""
+            whole = brief(format_atom(str(thing)))
+            yield f"{asked.functor} is told of parts of {whole}: {', '.join(told[:MOST])}{more}"
+
+
+def _below(parts: Collection[tuple[str, str]], whole: str) -> set[str]:
+    """Return the parts of a whole, and theirs."""
+    direct: dict[str, list[str]] = {}
+    for above, part in parts:
+        direct.setdefault(above, []).append(part)
+    found, left = set[str](), [whole]
+    while left:
+        new = [part for part in direct.get(left.pop(), ()) if part not in found]
+        found.update(new)
+        left += new
+    return found
+
+
+def _fits(given: Sequence[Value], asked: Sequence[Value]) -> bool:
+    """Return whether arguments are those that are asked for, where no variable stands."""
+    pairs = zip(given, asked, strict=False)
+    return len(given) == len(asked) and all(isinstance(each, Variable) or each == of for of, each in pairs)
 
 
 def _other_number(timeline: Timeline, asked: Term) -> Iterator[str]:
