@@ -41,7 +41,8 @@ Progress = Callable[[str], None]
 SCENARIO, WORLD = "scenario.json", "world.xml"
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
+# What is in it are arrays, of which no == tells one truth.
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class Projection:
     """One scenario, what happened in it, and what that means in symbols."""
 

@@ -124,6 +124,32 @@ def test_bad_states_are_refused() -> None:
         Log.from_mujoco(model, states, 0)
 
 
+@pytest.mark.parametrize("model", [None, "world.xml", 3])
+def test_what_is_no_model_is_refused(model: Any) -> None:
+    with pytest.raises(InputError, match=r"model: a mujoco\.MjModel is needed, as .*, not (NoneType|str|int)"):
+        Log.from_mujoco(model, np.zeros((3, 13)), STEP)
+
+
+def test_what_is_no_number_is_refused() -> None:
+    model, states = roll(world(FLOOR + box("a", "0 0 .05")), 0.02)
+    wrong: list[Any] = ["0.002", None, True]
+    for dt in wrong:
+        with pytest.raises(InputError, match="dt: a number of seconds is needed, not "):
+            Log.from_mujoco(model, states, dt)
+    wrong = ["states.npz", [["a"]], [[1.0], [1.0, 2.0]]]
+    for rows in wrong:
+        with pytest.raises(InputError, match="states: an array of numbers is needed"):
+            Log.from_mujoco(model, rows, STEP)
+
+
+def test_logs_can_be_compared_and_kept_in_sets() -> None:
+    model, states = roll(world(FLOOR + box("a", "0 0 .05")), 0.02)
+    log, other = Log.from_mujoco(model, states, STEP), Log.from_mujoco(model, states, STEP)
+    assert log == log
+    assert log != other
+    assert len({log, other}) == 2
+
+
 def test_names_that_clash_are_refused() -> None:
     model, states = roll(world('<geom name="a" type="plane" size="1 1 1"/>' + box("a", "0 0 .05")), 0.01)
     with pytest.raises(InputError, match="several things are called a"):

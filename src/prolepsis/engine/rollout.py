@@ -38,10 +38,18 @@ def read_rollout(
         stuffs: For each set of like bodies that is one stuff its name, and the pattern of theirs; optional.
 
     Raises:
-        InputError: If ``states`` has the wrong shape or ``dt`` is not positive, or a stuff cannot be one.
+        InputError: If ``model`` is none, ``states`` has the wrong shape, ``dt`` is not positive, or a stuff cannot be.
         InvalidSimulationError: If a state is not finite or MuJoCo warns of one.
     """
-    states = np.asarray(states, dtype=np.float64)
+    if not isinstance(model, mujoco.MjModel):
+        loaded = "mujoco.MjModel.from_xml_path(file)"
+        raise InputError(f"model: a mujoco.MjModel is needed, as {loaded} gives it, not {type(model).__name__}")
+    if not np.issubdtype(np.asarray(dt).dtype, np.number):
+        raise InputError(f"dt: a number of seconds is needed, not {type(dt).__name__}")
+    try:
+        states = np.asarray(states, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError("states: an array of numbers is needed, one full state (mjSTATE_INTEGRATION) a row") from None
     signature = int(mujoco.mjtState.mjSTATE_INTEGRATION)
     width = mujoco.mj_stateSize(model, signature)
     if states.ndim != 2 or states.shape[1] != width or not len(states):

@@ -153,7 +153,8 @@ class Action:
     """Measured numbers: the commanded force [N], the greatest force reached [N] ..."""
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
+# What is in it are arrays, of which no == tells one truth.
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class Log:
     """What one run left behind. T ticks, n things; tick i is the instant ``time[i] = i * dt``."""
 
