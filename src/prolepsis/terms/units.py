@@ -58,10 +58,11 @@ _BASES: dict[str, tuple[float, Dimension]] = {
     "Pa": (1.0, _PA),
     "J": (1.0, _J),
     "l": (1e-3, (0, 3, 0, 0, 0)),
+    "L": (1e-3, (0, 3, 0, 0, 0)),
     "Hz": (1.0, (0, 0, -1, 0, 0)),
 }
 _PREFIXES = {"G": 1e9, "M": 1e6, "k": 1e3, "c": 1e-2, "m": 1e-3, "u": 1e-6}
-_PREFIXED = ("g", "m", "s", "N", "Pa", "J", "l")
+_PREFIXED = ("g", "m", "s", "N", "Pa", "J", "l", "L")
 _SYMBOL = re.compile(r"([A-Za-z%]+|1)(?:\^?(-?[0-9]))?")
 """A symbol and its power of one digit; more would be no quantity of this world."""
 
