@@ -26,6 +26,7 @@ def write(folder: Path, text: str) -> Path:
     ("old", "new", "message"),
     [
         ("plan =", "plan : ", r"scenario\.toml:2: TOML syntax"),
+        (GOOD, "# An egg.\n@prefix : <https://w3id.org/prolepsis#> .\n", r"scenario\.toml:2: .*; this is a situation"),
         ("close(", "Close(", r"only variables begin with a capital letter: write close\(\.\.\.\)"),
         ("close(", "CLOSE(", r"only variables begin with a capital letter: write close"),
         ("hand1, Force)", "hand1, 10 N)", r"numbers are in SI units, without a unit"),

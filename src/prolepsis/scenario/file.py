@@ -32,6 +32,8 @@ LONGEST_FILE = 1_000_000
 """Longest scenario file [bytes]."""
 MOST_DOTS = 50
 """Parts of a key; the reader of TOML takes the square of them."""
+_TURTLE = re.compile(r"^\s*@?prefix\s", re.MULTILINE | re.IGNORECASE)
+"""What a file of Turtle begins with."""
 _LONG_KEY = re.compile(rf"(?:[\w-]+[ \t]*\.[ \t]*){{{MOST_DOTS}}}")
 DEFAULT_PARTICLES = 2000
 """Particles of the largest liquid, if nothing is said: some 5 mm apart in a cup."""
@@ -91,7 +93,12 @@ def read_file(path: Path) -> ScenarioFile:
         message = str(error)
         line = re.search(r"at line (\d+)", message)
         location = f"{path}:{line.group(1)}" if line else str(path)
-        raise ScenarioError(f"{location}: TOML syntax: {brief(message, 200)}") from error
+        told = (
+            "; this is a situation, which a scenario names: situation = FILE, plan = ..."
+            if _TURTLE.search(text)
+            else ""
+        )
+        raise ScenarioError(f"{location}: TOML syntax: {brief(message, 120)}{told}") from error
     except ValueError as error:
         raise ScenarioError(f"{path}: TOML syntax: a number, date or time that cannot be: {brief(error)}") from error
     except RecursionError as error:
