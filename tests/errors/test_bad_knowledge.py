@@ -18,6 +18,14 @@ PREFIX = "@prefix : <https://w3id.org/prolepsis#> .\n"
     [
         (":egg1 a :Eg .", r"s\.ttl:2: no class named 'Eg'; did you mean 'Egg'"),
         (":egg1 a :egg .", r"no class named 'egg'; did you mean 'Egg'"),
+        (
+            "@prefix ex: <http://example.org/k#> . :egg1 a :Egg ; ex:mass 0.05 .",
+            r"s\.ttl:2: no property http://example\.org/k#mass; did you mean https://w3id\.org/prolepsis#mass\?$",
+        ),
+        (
+            "@prefix ex: <http://example.org/k#> . :egg1 a ex:Egg .",
+            r"no class http://example\.org/k#Egg; did you mean https://w3id\.org/prolepsis#Egg\?$",
+        ),
         (":egg1 a :EGG .", r"no class named 'EGG'; did you mean 'Egg'"),
         (":egg1 a :Egg ; :MASS 0.05 .", r"no property named 'MASS'; did you mean 'mass'"),
         (":t a :paper_TOWEL .", r"no class named 'paper_TOWEL'; did you mean 'PaperTowel'"),

@@ -12,7 +12,7 @@ from prolepsis.knowledge.naming import refuse_unusable_names
 from prolepsis.knowledge.sources import NAMESPACE
 from prolepsis.knowledge.turtle import Document, local_name
 from prolepsis.knowledge.vocabulary import Vocabulary
-from prolepsis.terms.errors import UnknownNameError
+from prolepsis.terms.errors import UnknownNameError, brief
 
 _COMMON = (
     "http://www.w3.org/1999/02/22-rdf-syntax-ns#",
@@ -81,6 +81,9 @@ def refuse_unknown_names(documents: tuple[Document, ...], vocabulary: Vocabulary
     def refuse(what: str, iri: URIRef, document: Document, predicate: Node | None = None) -> UnknownNameError:
         names = {"class": vocabulary.classes, "property": vocabulary.properties}
         known = names.get(what) or may_be_named(predicate, individuals, vocabulary)
+        if local_name(iri) in known:
+            meant = f"{NAMESPACE}{brief(local_name(iri))}"
+            return UnknownNameError(f"{document.where(iri)}: no {what} {brief(str(iri))}; did you mean {meant}?")
         return UnknownNameError.of(what, local_name(iri), known, document.where(iri))
 
     for document in documents:
