@@ -23,6 +23,7 @@ def timeline(relation: tuple[str, str, str], *facts: Fact) -> Timeline:
     return make_timeline(facts, dt=0.001, duration=3.0, domain=Domain(relations=(relation,)))
 
 
+@pytest.mark.filterwarnings("ignore:no, but there is .*, where the log ends")
 @pytest.mark.parametrize(
     ("relation", "facts", "end"),
     [

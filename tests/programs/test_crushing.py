@@ -50,6 +50,7 @@ def test_what_is_pressed_until_it_breaks_is_crushed() -> None:
     assert (press.outcome, press.evidence["reason"]) == ("crushed", "egg1 broke at 28 of 30 N")
 
 
+@pytest.mark.filterwarnings("ignore:no, but attached is told of parts of egg1")
 def test_a_grasp_that_crushes_says_at_which_force_and_a_no_tells_of_it() -> None:
     log = run(EGG_IN_HAND, "sequence([grasp(hand1, egg1, 60), hold(hand1, 0.1)])")
     grasp, hold = log.actions
