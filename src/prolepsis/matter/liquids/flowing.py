@@ -11,7 +11,7 @@ from prolepsis.log.log import FREE, PARKED
 from prolepsis.matter.liquids.bodies import WallBodies
 from prolepsis.matter.liquids.holes import note_narrow
 from prolepsis.matter.liquids.particles import first_beyond
-from prolepsis.matter.liquids.solver import LONGEST, Liquid
+from prolepsis.matter.liquids.solver import Liquid
 from prolepsis.matter.liquids.yielding import about
 from prolepsis.scene.kind import Controller
 from prolepsis.scene.particles import ParticleState
@@ -67,8 +67,9 @@ class Flowing(Controller):
         # What is in a vessel stays there until the run begins.
         walls, passed = self._walls.stopped(), 0.0
         while passed < SETTLING_TIME:
-            self.liquid.step(LONGEST, walls, at_rest, at_rest)
-            passed += LONGEST
+            dt = self.liquid.packed_step()
+            self.liquid.step(dt, walls, at_rest, at_rest)
+            passed += dt
         particles.viscosity = viscosity
         particles.velocity[:] = 0.0
 

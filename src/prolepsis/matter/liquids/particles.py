@@ -32,6 +32,27 @@ def greatest_speed(velocity: FloatArray, holder: npt.NDArray[np.int16]) -> float
 
 
 @njit(cache=True)
+def pressure_wave(impulse: FloatArray, mass: FloatArray, holder: npt.NDArray[np.int16], lasted: float) -> float:
+    """Return the speed ``sqrt(p / rho)`` where the free particles' pressure is high [m/s], 0 if there is none.
+
+    The pressure at the bottom of a liquid at rest is half as much again as the mean that is weighted by itself.
+
+    Args:
+        impulse: Pressure impulses of the last step [N s m], shape (n,).
+        mass: [kg], shape (n,).
+        holder: Who holds each, shape (n,).
+        lasted: Length of that step [s].
+    """
+    total, squares = 0.0, 0.0
+    for i in range(len(impulse)):
+        if holder[i] == FREE and impulse[i] > 0.0:
+            square = impulse[i] / (lasted * mass[i])
+            total += square
+            squares += square * square
+    return math.sqrt(1.5 * squares / total) if total > 0.0 else 0.0
+
+
+@njit(cache=True)
 def first_beyond(position: FloatArray, holder: npt.NDArray[np.int16], centre: FloatArray, reach: float) -> int:
     """Return the first free particle that is further than ``reach`` [m] from ``centre``, or nowhere; -1 for none."""
     for i in range(len(position)):
