@@ -29,6 +29,8 @@ LEAKING, OVERFLOWING = {"a"}, {"e"}
 """Variants in which cup2 leaks, or overflows."""
 
 
+# What overflows runs over the table; whether one drop more falls from its edge is near a threshold.
+@pytest.mark.filterwarnings(r"ignore:near its threshold.*(wet|dirty)\(floor\)")
 @pytest.mark.parametrize("variant", sorted(STATED))
 def test_pouring_ends_as_the_paper_states(variant: str) -> None:
     poured = project(EXAMPLES / f"pour_{variant}.toml")

@@ -101,6 +101,14 @@ def test_deep_water_does_not_collapse(compare: Compare, depth: float, spacing: f
     compare("height of deep water", height, depth, by="its volume", share=0.03, unit="m")
 
 
+def test_water_is_evenly_in_a_cup_when_a_run_begins() -> None:
+    """Neighbours are three quarters of a spacing apart at least: none are pressed into each other."""
+    log = run(CUP_ON_TABLE, duration=0.01, particles=1000)
+    places: FloatArray = log.particles.position[0].astype(np.float64)
+    apart = np.linalg.norm(places[:, None] - places, axis=2) + np.diag(np.full(len(places), np.inf))
+    assert apart.min() > 0.75 * log.particles.spacing
+
+
 def test_a_free_blob_keeps_its_momentum() -> None:
     """1000 particles of water without walls or weight, thrown about at 0.1 m/s.
 

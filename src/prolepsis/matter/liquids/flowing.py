@@ -64,6 +64,9 @@ class Flowing(Controller):
         particles.viscosity = np.maximum(viscosity, SETTLING_VISCOSITY)
         position, rotation = self._walls.now()
         at_rest = self._walls.at(position, rotation, np.zeros_like(position), np.zeros_like(position))
+        # What stands there stands: a vessel that gave way would let the liquid sink into its bottom.
+        none = np.zeros_like(at_rest.mobility)
+        at_rest = at_rest._replace(mobility=none, inertia=none)
         # What is in a vessel stays there until the run begins.
         walls, passed = self._walls.stopped(), 0.0
         while passed < SETTLING_TIME:
