@@ -92,7 +92,7 @@ def test_a_steel_ball_sinks_in_honey_at_the_speed_of_stokes(compare: Compare) ->
 @pytest.mark.xfail(
     strict=True,
     raises=(AssertionError, InvalidSimulationError),
-    reason="a body much lighter than what it displaces jumps about in a viscous liquid: see docs/liquids.md",
+    reason="particles under pressure shear like grains, which is half of what drives it: see docs/liquids.md",
 )
 def test_a_light_ball_rises_in_honey(compare: Compare) -> None:
     """A ball of 500 kg/m^3 rises with the same law, the other way round, at 2 Pa s and within 25 %.
