@@ -89,7 +89,7 @@ def crushed(observation: Observation) -> Iterator[Fact | NearMiss]:
 
 def _opened(observation: Observation, parts: Parts) -> int:
     """Return the tick from which it is in more than one part, or that at which the log ends."""
-    apart = np.flatnonzero(parts.equal > 1)
+    apart = np.flatnonzero(parts.count > 1)
     return int(observation.segments[apart[0]]) if len(apart) else observation.tick_count
 
 

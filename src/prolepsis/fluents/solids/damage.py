@@ -48,6 +48,11 @@ class Parts:
     """Mass of each part over that of all, the largest first [1]."""
 
     @property
+    def count(self) -> IntArray:
+        """Number of parts [1], shape (S,)."""
+        return np.array([len(shares) for shares in self.shares])
+
+    @property
     def equal(self) -> FloatArray:
         """Number of equal parts of the same fineness [1], shape (S,): that of parts of one mass is their number, and
         crumbs hardly count."""
