@@ -38,6 +38,8 @@ LINGERING = 0.1
 class Softening:
     """Which solids are of pieces, and until when they count as squeezed."""
 
+    elastic: bool = False
+    """Whether there are softer contacts, of their own: their friction would be as soft, and what is gripped creep."""
     pieces: BoolArray = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
     """Whether each solid of the model is of one, shape (ngeom,)."""
     any_pieces: bool = False
@@ -50,6 +52,7 @@ class Softening:
         pieces = np.isin(body_thing, [i for i, thing in enumerate(things) if "Piece" in thing.roles])
         self.pieces = pieces[model.geom_bodyid]
         self.any_pieces = bool(pieces.any())
+        self.elastic = bool((model.pair_solimp[:, 0] < HARD_SOLIMP[0]).any()) if model.npair else False
 
     def begin(self, data: Any) -> None:
         """Let pieces that have just come about count as squeezed: a moment ago they were pressed."""
@@ -66,7 +69,7 @@ class Softening:
     def forward(self, model: Any, data: Any) -> None:
         """Find contacts and forces as they are now."""
         mujoco.mj_forward(model, data)
-        if self.any_pieces and self.soften(model, data):
+        if (self.any_pieces or self.elastic) and self.soften(model, data):
             mujoco.mj_fwdConstraint(model, data)
 
     def soften(self, model: Any, data: Any) -> bool:
@@ -79,9 +82,10 @@ class Softening:
             return False
         contact = data.contact
         address = contact.efc_address
+        firm = self._stick(data)
         chosen = np.flatnonzero((address >= 0) & self.pieces[contact.geom].any(axis=1))
         if not len(chosen):
-            return False
+            return firm
         dim, row = contact.dim[chosen], address[chosen]
         hard = contact.solimp[chosen, 0] == HARD_SOLIMP[0]
         rows, first = _runs(row[hard], dim[hard])
@@ -98,6 +102,22 @@ class Softening:
             rows, _ = _runs(row[sliding] + 1, dim[sliding] - 1)
             _resist(data, rows, STIFF / SOFT)
             contact.mu[chosen[sliding]] *= np.sqrt(STIFF / SOFT)
+        return True
+
+    def _stick(self, data: Any) -> bool:
+        """Let what is elastic creep no more than what is hard; return whether there is any such contact."""
+        contact = data.contact
+        impedance = contact.solimp[:, 0]
+        chosen = np.flatnonzero(
+            (contact.efc_address >= 0) & (impedance < HARD_SOLIMP[0]) & ~self.pieces[contact.geom].any(axis=1)
+        )
+        if not len(chosen):
+            return False
+        softer = (1 / impedance[chosen] - 1) / (1 / HARD_SOLIMP[0] - 1)
+        dim = contact.dim[chosen] - 1
+        rows, _ = _runs(contact.efc_address[chosen] + 1, dim)
+        _resist(data, rows, np.repeat(1 / softer, dim))
+        contact.mu[chosen] /= np.sqrt(softer)
         return True
 
 
