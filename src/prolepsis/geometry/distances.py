@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from prolepsis.geometry.faces import ELLIPSOID, GRID, HULL, MOST_FACES, PROFILE, Solids, faces_of
+from prolepsis.geometry.faces import ELLIPSOID, GRID, HULL, MOST_FACES, PROFILE, SHELL, Solids, faces_of
 from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.system.kernels import njit
 
@@ -85,8 +85,9 @@ def node_distances(solids: Solids, origin: FloatArray, step: float, shape: IntAr
 @njit(cache=True)
 def _is_steady(kind: int) -> bool:
     """Return whether the distances to a solid of this kind never change faster than the point moves."""
-    # At the edge of a hole they jump, between nodes they are interpolated, and an ellipsoid's are estimates.
-    return kind not in (PROFILE, GRID, ELLIPSOID)
+    # At the edge of a hole they jump, between nodes they are interpolated, an ellipsoid's are estimates, and those to a
+    # shell's pieces are endless from somewhere on.
+    return kind not in (PROFILE, GRID, ELLIPSOID, SHELL)
 
 
 @njit(cache=True)

@@ -12,10 +12,12 @@ from typing import NamedTuple
 import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, IntArray
+from prolepsis.geometry.thin_shells import shell_face
 from prolepsis.system.kernels import njit
 
-PLANE, SPHERE, CAPSULE, ELLIPSOID, CYLINDER, BOX, HULL, PROFILE, GRID = range(9)
-"""Kinds of solids: MuJoCo's primitives, planes of a convex hull, a turned outline, distances on a grid."""
+PLANE, SPHERE, CAPSULE, ELLIPSOID, CYLINDER, BOX, HULL, PROFILE, GRID, SHELL = range(10)
+"""Kinds of solids: MuJoCo's primitives, planes of a convex hull, a turned outline, distances on a grid, pieces of a
+thin shell."""
 ON_AXIS = 1e-9
 """What is nearer to the axis than this is on it [m]."""
 MOST_FACES = 3
@@ -37,7 +39,7 @@ class Solids(NamedTuple):
     """First number and count of the solid's own numbers, first number and count of its holes', shape (K, 4)."""
     numbers: FloatArray
     """One after the other: planes (normal, offset), sides of outlines (begin, end, direction, length), holes
-    (position, direction, radius), grids (origin, step, shape, values)."""
+    (position, direction, radius), grids (origin, step, shape, values), pieces of a shell (see ``thin_shells``)."""
 
 
 @njit(cache=True)
@@ -92,6 +94,8 @@ def faces_of(
             faces = _profile(x, y, z, numbers, first, length, reach, near)
             if holes > 0:
                 _drill(x, y, z, numbers, first_hole, holes, near, faces)
+        elif kind == SHELL:
+            shell_face(x, y, z, size, numbers, first, length, reach, near)
         else:
             _grid(x, y, z, numbers, first, near)
         kept = 0

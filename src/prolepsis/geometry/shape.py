@@ -61,10 +61,24 @@ class Surface:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class Patch:
+    """A piece of a thin ellipsoidal shell: what of that is nearer to the origin than to the piece's neighbours."""
+
+    semi_axes: Triple
+    """Of the middle of the shell's thickness [m]."""
+    thickness: float
+    """[m]"""
+    middle: Triple
+    """Of the ellipsoid [m]; its axes are those of the thing's frame."""
+    neighbours: tuple[Triple, ...]
+    """Their centres [m]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class Shape:
     """A rigid shape: a union of convex solids. Its cavities follow from it.
 
-    A profile or a surface, where there is one, says exactly what the solids approximate: what flows past the
+    A profile, a surface or a patch, where there is one, says exactly what the solids approximate: what flows past the
     shape, and what its cavity holds, goes by that.
     """
 
@@ -75,6 +89,8 @@ class Shape:
     (radius to the right, height up): the solid lies to its left. Empty for a shape that is not turned."""
     surface: Surface | None = None
     """The closed surface of a shape that was read from a mesh."""
+    patch: Patch | None = None
+    """What the shape of a piece of a shell stands for."""
     holes: tuple[Hole, ...] = ()
     """What is drilled out of the profile."""
     colour: Colour = (0.7, 0.7, 0.7, 1.0)

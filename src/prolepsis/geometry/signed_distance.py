@@ -18,14 +18,16 @@ from prolepsis.geometry.faces import (
     MOST_FACES,
     PLANE,
     PROFILE,
+    SHELL,
     SPHERE,
     Solids,
     faces_of,
 )
 from prolepsis.geometry.grid import grid_of
 from prolepsis.geometry.rotations import matrix
-from prolepsis.geometry.shape import FloatArray, IntArray, Shape
+from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray, Patch, Shape, triple
 from prolepsis.geometry.solids import Solid, solid_of
+from prolepsis.geometry.thin_shells import ThinShell
 from prolepsis.system.kernels import njit
 
 PRIMITIVES = {
@@ -38,6 +40,8 @@ PRIMITIVES = {
     "mesh": HULL,
 }
 
+SAME = 1.0e-4
+"""Centres of pieces that are nearer than this are one [m]."""
 AT_ONCE = 1024
 """Points whose distances are computed at once."""
 
@@ -68,6 +72,8 @@ def solids_as_arrays(shape: Shape) -> Solids:
         bounds = np.array([-radius, -radius, bottom, radius, radius, top])
         holes = [(*hole.position, *hole.direction, hole.radius) for hole in shape.holes]
         return _joined([(PROFILE, _AT_HOME, np.zeros(3), bounds, _sides(outline).ravel(), np.ravel(holes))])
+    if shape.patch is not None:
+        return _patched([shape.patch], np.zeros((1, 3)))
     if shape.surface is not None:
         numbers = grid_of(shape.surface)
         bounds = np.concatenate([numbers[:3], numbers[:3] + numbers[3] * (numbers[4:7] - 1)])
@@ -102,6 +108,44 @@ def _convex(solid: Solid) -> _Row:
         size = solid.size[[0, 0, 1]] if solid.type == "cylinder" else np.full(3, solid.size[0])
         bounds = np.concatenate([-size, size])
     return (PRIMITIVES[solid.type], frame, solid.size, bounds, np.ravel(numbers), np.zeros(0))
+
+
+def pieces_of(shell: ThinShell, there: BoolArray, position: FloatArray) -> Solids:
+    """Return those pieces of a shell that are there as one solid, its middle at a position [m] in the frame."""
+    size = np.asarray(shell.semi_axes)
+    frame = np.concatenate([position, _AT_HOME[3:]])
+    within = np.concatenate([-size, size])
+    return _joined([(SHELL, frame, size, within, shell.numbers(there), np.zeros(0))])
+
+
+Part = tuple[Shape, FloatArray]
+"""A shape, and its pose on its body, shape (7,)."""
+
+
+def placed(parts: Sequence[Part]) -> Solids:
+    """Return the union of shapes with their poses; pieces of a shell are one solid, with no edges at joints."""
+    patches = [shape.patch for shape, _ in parts if shape.patch is not None]
+    if len(patches) < len(parts) or len(parts) < 2:
+        return union_of([shifted(field_of(shape).solids, pose) for shape, pose in parts])
+    poses = np.array([pose for _, pose in parts])
+    turned = matrix(poses[0, 3:])
+    positions = (poses[:, :3] - poses[0, :3]) @ turned
+    return shifted(_patched(patches, positions), poses[0])
+
+
+def _patched(patches: Sequence[Patch], positions: FloatArray) -> Solids:
+    """Return pieces of one shell with their positions, shape (k, 3), as one solid."""
+    middle = positions[0] + patches[0].middle
+    centres = positions - middle
+    beside = [np.reshape(each.neighbours, (-1, 3)) + at for each, at in zip(patches, centres, strict=True)]
+    known = np.concatenate([centres, *beside])
+    # Each once: pieces that are there first, then those only beside them.
+    first = (np.linalg.norm(known[:, None] - known, axis=2) < SAME).argmax(axis=1)
+    kept = known[first == np.arange(len(known))]
+    shell = ThinShell(
+        semi_axes=patches[0].semi_axes, thickness=patches[0].thickness, centres=tuple(triple(each) for each in kept)
+    )
+    return pieces_of(shell, np.arange(len(kept)) < len(centres), middle)
 
 
 def _joined(rows: Sequence[_Row]) -> Solids:

@@ -180,6 +180,12 @@ def _check_shape(name: str, shape: Shape) -> None:
         _check_numbers(f"{name}: a geom", np.array(numbers, dtype=np.float64))
         if min(geom.size) < 0.0:
             raise ValueError(f"{name}: the size of a geom is negative")
+    if shape.patch is not None:
+        patch = shape.patch
+        if len(patch.neighbours) > MOST_POINTS or min(*patch.semi_axes, patch.thickness) <= 0.0:
+            raise ValueError(f"{name}: a patch has more than {MOST_POINTS} neighbours, or no size")
+        numbers = (*patch.semi_axes, patch.thickness, *patch.middle, *itertools.chain.from_iterable(patch.neighbours))
+        _check_numbers(f"{name}: patch", np.array(numbers, dtype=np.float64))
     if shape.surface is not None:
         _check_numbers(f"{name}: surface", np.array(shape.surface.vertices, dtype=np.float64))
         corners = np.array(shape.surface.triangles, dtype=np.int64)

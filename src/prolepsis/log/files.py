@@ -10,7 +10,7 @@ from typing import Any, cast
 import numpy as np
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from prolepsis.geometry.shape import Geom, Hole, Shape, Surface, Triple
+from prolepsis.geometry.shape import Geom, Hole, Patch, Shape, Surface, Triple
 from prolepsis.log import particle_tables, tables
 from prolepsis.log.checks import check_columns, check_log, check_types
 from prolepsis.log.happenings import Happenings
@@ -221,7 +221,7 @@ def _plain(value: Any) -> Any:
     """
     if type(value) in (float, str, int, bool):
         return value
-    if isinstance(value, Thing | Mount | Shape | Geom | Hole | Surface):
+    if isinstance(value, Thing | Mount | Shape | Geom | Hole | Patch | Surface):
         told = {each.name: getattr(value, each.name) for each in fields(value)}
         return {name: _plain(each) for name, each in told.items() if name != "centre" or each is not None}
     if isinstance(value, frozenset):

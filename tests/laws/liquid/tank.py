@@ -7,12 +7,13 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from prolepsis.geometry.faces import Solids
 from prolepsis.geometry.shape import BoolArray, FloatArray, Geom, Hole, Shape, Triple
-from prolepsis.geometry.signed_distance import field_of
+from prolepsis.geometry.signed_distance import union_of
 from prolepsis.log.log import FREE, PARKED
 from prolepsis.matter.liquids.holes import walls_of
 from prolepsis.matter.liquids.solver import COURANT, Liquid
-from prolepsis.matter.liquids.walls import Bodies
+from prolepsis.matter.liquids.walls import Bodies, Walls
 from prolepsis.scene.particles import ParticleState
 
 GRAVITY = 9.81
@@ -52,7 +53,7 @@ class Tank:
 
     def __init__(
         self,
-        walls: Sequence[tuple[Shape, Motion]],
+        walls: Sequence[tuple[Shape | Solids, Motion]],
         position: FloatArray,
         spacing: float,
         *,
@@ -96,9 +97,14 @@ class Tank:
         """[s]"""
         self._motions: list[Motion] = [motion for _, motion in walls]
         self._frozen: float | None = None
-        shapes = [shape for shape, _ in walls]
-        self._walls = walls_of([(shape, AT_HOME) for shape in shapes], spacing)
-        self._first = np.cumsum([0, *(len(field_of(shape).solids.kind) for shape in shapes)]).astype(np.int64)
+        made = [
+            walls_of([[(shape, AT_HOME)]], spacing) if isinstance(shape, Shape) else Walls(faces=shape, surfaces=shape)
+            for shape, _ in walls
+        ]
+        self._walls = Walls(
+            faces=union_of([each.faces for each in made]), surfaces=union_of([each.surfaces for each in made])
+        )
+        self._first = np.cumsum([0, *(len(each.faces.kind) for each in made)]).astype(np.int64)
 
     @property
     def position(self) -> FloatArray:

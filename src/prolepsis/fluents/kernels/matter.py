@@ -9,7 +9,8 @@ import numpy as np
 
 from prolepsis.fluents.shapes_in_time import Part
 from prolepsis.geometry.faces import Solids
-from prolepsis.geometry.signed_distance import solids_as_arrays, union_of
+from prolepsis.geometry.rotations import from_axes
+from prolepsis.geometry.signed_distance import placed
 
 
 def assembled(parts: Sequence[Part], *, plugged: bool = False) -> Solids:
@@ -19,12 +20,6 @@ def assembled(parts: Sequence[Part], *, plugged: bool = False) -> Solids:
         parts: The parts.
         plugged: Whether holes that are drilled through them are left out.
     """
-    return union_of([_in_body_frame(part, plugged=plugged) for part in parts])
-
-
-def _in_body_frame(part: Part, *, plugged: bool) -> Solids:
-    solids = solids_as_arrays(replace(part.shape, holes=()) if plugged else part.shape)
-    frame = np.empty_like(solids.frame)
-    frame[:, :3] = solids.frame[:, :3] @ part.rotation.T + part.displacement
-    frame[:, 3:] = (part.rotation @ solids.frame[:, 3:].reshape(-1, 3, 3)).reshape(-1, 9)
-    return solids._replace(frame=frame)
+    shapes = [replace(part.shape, holes=()) if plugged else part.shape for part in parts]
+    poses = [np.array([*part.displacement, *from_axes(part.rotation)]) for part in parts]
+    return placed(list(zip(shapes, poses, strict=True)))

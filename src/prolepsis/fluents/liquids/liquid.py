@@ -126,10 +126,16 @@ def absorbs(observation: Observation) -> Iterator[Fact | NearMiss]:
 
 
 def spilled_masks(observation: Observation) -> BoolArray:
-    """Return which particles lie on or flow over a surface outside every container, or have left the scene, (F, P)."""
+    """Return which particles lie on or flow over a surface outside every container, or have left the scene, (F, P).
+
+    What a fragment still carries of what was in the whole is not spilled.
+    """
     seen = observation.of(particle_locations)
     assert seen is not None  # asked for by groundings that have looked
-    lying = opened((seen.manner > 0) & ~observation.of(passing_rims), lasting_frames(observation, seen))
+    carried = np.array([observation.has_role(i, "Piece") for i in range(len(observation.log.things))])
+    lying = opened(
+        (seen.manner > 0) & ~carried[seen.on] & ~observation.of(passing_rims), lasting_frames(observation, seen)
+    )
     return lying | (seen.particles.holder == PARKED)
 
 

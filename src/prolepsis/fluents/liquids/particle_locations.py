@@ -262,8 +262,7 @@ def _seen_inside(observation: Observation, particles: Particles, loose: BoolArra
     near = spread(within, free, max(1, round(NEAR * spacing / space.step)))
     bits, over_holes = np.zeros(loose.shape, dtype=np.uint8), np.zeros(loose.shape, dtype=np.uint8)
     depth = np.zeros(loose.shape, dtype=np.float32)
-    # The cracks of a fragment are no holes of a vessel, which one would call whole but for them.
-    has_holes = hollows.has_holes and not observation.has_role(shape.body, "Piece")
+    has_holes = hollows.has_holes
     for direction in np.unique(which[during]).tolist():
         up = hollows.up[direction]
         frames = np.flatnonzero(during & (which == direction))

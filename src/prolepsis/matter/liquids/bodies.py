@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
-from prolepsis.geometry.signed_distance import field_of
+from prolepsis.geometry.signed_distance import placed
 from prolepsis.matter.liquids.holes import Part, stopped, walls_of
 from prolepsis.matter.liquids.walls import Bodies, Walls
 from prolepsis.matter.liquids.yielding import about, response
@@ -43,7 +43,7 @@ class WallBodies:
         ids: list[int] = []
         carriers: list[int] = []
         first = [0]
-        parts: list[Part] = []
+        parts: list[list[Part]] = []
         for body, carrier in enumerate([int(thing) for thing in state.body_thing]):
             if carrier < 0 or things[carrier].name in panels or self._is_shard(state, body, int(carrier)):
                 continue
@@ -55,8 +55,8 @@ class WallBodies:
                 continue
             ids.append(body)
             carriers.append(carrier)
-            parts += [(things[i].shape, state.offsets[i].copy()) for i in carried]
-            first.append(first[-1] + sum(len(field_of(things[i].shape).solids.kind) for i in carried))
+            parts.append([(things[i].shape, state.offsets[i].copy()) for i in carried])
+            first.append(first[-1] + len(placed(parts[-1]).kind))
         self._parts = parts
         self.walls = walls_of(parts, self._spacing)
         self.ids = np.array(ids, dtype=np.int64)

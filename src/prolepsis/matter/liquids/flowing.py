@@ -24,9 +24,9 @@ LONGEST_TRAVEL = 0.5
 """Travel of the fastest wall after which a step of the liquid comes early [spacings]."""
 FAR = 2.0
 """Distance from all things at the start beyond which a particle is parked [m]."""
-LIGHTEST = 50.0
-"""Pieces of a shell that weigh less than so many particles are no walls: they are thinner than a particle, and would be
-thrown about by forces that so few cannot resolve."""
+LIGHTEST = 3.0
+"""Pieces of a shell that weigh less than so many particles are no walls: splinters, narrower than what would flow round
+them. All that is larger is one, with its edges, and a light one yields to what flows within a step."""
 GREATEST_GROWTH = 1.5
 """Factor by which a step may be longer than the last one, in which what that gave to the bodies acts [1]."""
 SETTLING_TIME = 0.24

@@ -10,8 +10,8 @@ import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from prolepsis.geometry.shape import FloatArray, Shape
-from prolepsis.geometry.signed_distance import field_of, shifted, union_of
+from prolepsis.geometry.shape import Shape
+from prolepsis.geometry.signed_distance import Part, placed, union_of
 from prolepsis.log.things import Thing
 from prolepsis.matter.liquids.walls import Walls
 from prolepsis.scenario.scenario import MOST_PARTICLES
@@ -23,22 +23,18 @@ does not hang on the spacing (docs/liquids.md)."""
 NARROWEST = 1.5
 """Width of the narrowest hole through which the flow is known [spacings]; under it less flows, under one nothing."""
 
-Part = tuple[Shape, FloatArray]
-"""A shape, and its pose on its body, shape (7,)."""
 
-
-def walls_of(parts: Sequence[Part], spacing: float) -> Walls:
-    """Return the walls of some shapes for a liquid of a spacing [m]."""
+def walls_of(bodies: Sequence[Sequence[Part]], spacing: float) -> Walls:
+    """Return the walls of bodies, each of some shapes, for a liquid of a spacing [m]."""
+    wider = [[(_widened(shape, RIM * spacing), pose) for shape, pose in parts] for parts in bodies]
     return Walls(
-        faces=union_of([shifted(field_of(_widened(shape, RIM * spacing)).solids, pose) for shape, pose in parts]),
-        surfaces=union_of([shifted(field_of(shape).solids, pose) for shape, pose in parts]),
+        faces=union_of([placed(parts) for parts in wider]), surfaces=union_of([placed(parts) for parts in bodies])
     )
 
 
-def stopped(parts: Sequence[Part]) -> Walls:
+def stopped(bodies: Sequence[Sequence[Part]]) -> Walls:
     """Return the same with the holes stopped that are drilled through them."""
-    whole = [(replace(shape, holes=()), pose) for shape, pose in parts]
-    return walls_of(whole, 0.0)
+    return walls_of([[(replace(shape, holes=()), pose) for shape, pose in parts] for parts in bodies], 0.0)
 
 
 def _widened(shape: Shape, by: float) -> Shape:

@@ -9,7 +9,7 @@ import numpy as np
 
 from prolepsis.geometry.packing import lattice
 from prolepsis.geometry.rotations import matrix, rotated
-from prolepsis.geometry.shape import FloatArray, Geom, Shape, Triple
+from prolepsis.geometry.shape import FloatArray, Geom, Patch, Shape, Triple, triple
 from prolepsis.knowledge.knowledge_base import KnowledgeBase
 from prolepsis.log.things import WITHIN, Thing
 from prolepsis.matter.shells.cutting import CutShell, curvature_radius, ellipsoid_shell
@@ -198,7 +198,11 @@ def shell_pieces(egg: Thing, shell: Thing) -> tuple[tuple[Thing, ...], tuple[Sha
             Thing(
                 name=f"{shell.name}/piece{k}",
                 kind=f"{shell.kind}Piece",
-                shape=Shape(geoms=(Geom(type="mesh", vertices=vertices),), colour=egg.shape.colour),
+                shape=Shape(
+                    geoms=(Geom(type="mesh", vertices=vertices),),
+                    patch=_patch(egg, shell, parts, k),
+                    colour=egg.shape.colour,
+                ),
                 position=_world_position(egg, centre),
                 orientation=egg.orientation,
                 mass=float(shell.mass * area / parts.areas.sum()),
@@ -211,6 +215,17 @@ def shell_pieces(egg: Thing, shell: Thing) -> tuple[tuple[Thing, ...], tuple[Sha
         radius = curvature_radius(np.asarray(egg.shape.geoms[0].size), centre)
         shards.append(Shard(name=made[-1].name, whole=egg.name, area=float(area), radius=radius))
     return tuple(made), tuple(shards)
+
+
+def _patch(egg: Thing, shell: Thing, cut: CutShell, number: int) -> Patch:
+    thickness = shell.quantities["shellThickness"]
+    beside = cut.bonds[(cut.bonds == number).any(axis=1)].sum(axis=1) - number
+    return Patch(
+        semi_axes=triple(np.asarray(egg.shape.geoms[0].size) - thickness / 2),
+        thickness=thickness,
+        middle=triple(-cut.centres[number]),
+        neighbours=tuple(triple(cut.centres[k] - cut.centres[number]) for k in beside.tolist()),
+    )
 
 
 def _world_position(egg: Thing, offset: FloatArray) -> Triple:
