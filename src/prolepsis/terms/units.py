@@ -81,6 +81,7 @@ _QUDT = {
     "PA": "Pa",
     "PA-SEC": "Pa s",
     "N-PER-M": "N/m",
+    "J-PER-M2": "J/m2",
     "M-PER-SEC": "m/s",
     "M-PER-SEC2": "m/s2",
 }

@@ -394,6 +394,7 @@ property(file, '').
 property(fill, '1').
 property(filmThickness, m).
 property(force, 'N').
+property(fractureEnergy, 'N/m').
 property(fractureStrain, '1').
 property(friction, '1').
 property(frictionWhenWet, '1').

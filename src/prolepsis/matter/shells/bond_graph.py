@@ -21,6 +21,10 @@ import numpy as np
 from prolepsis.geometry.rotations import cross
 from prolepsis.geometry.shape import BoolArray, FloatArray, IntArray
 
+ALONG = 5
+"""Points that stand for an edge, some 3 mm apart."""
+RIM = 2.0
+"""What presses so near to a rim, over the length in which a shell bends, presses beside it [1]."""
 HINGE = 1.0e-3
 """Share of its stiffness in bending and twist that a cracked bond keeps [1]: next to nothing."""
 SETTLING = 4
@@ -67,12 +71,16 @@ class BondGraph:
     """Length over which a contact force is shared among pieces [m]."""
     semi_axes: tuple[float, float, float]
     """Half lengths of the ellipsoid that the shell is [m]."""
+    rims: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
+    """Points along the edges that have given way [m], shape (r, 3)."""
+    rim_strength: float = 1.0
+    """Force that breaks it beside such an edge, over that which does elsewhere [1]."""
     evened: float = 0.0
     """Greatest load of a bond by each newton on a whole shell, wherever it presses [1/N]; 0 if as computed."""
     damaged: bool = False
     """Whether any bond has given way."""
-    apart: bool = False
-    """Whether it is a part of a shell that has fallen apart."""
+    local: bool = False
+    """Whether peaks round contacts are counted by themselves, and bonds bear what the material does."""
     hardening: float = 1.0
     """Factor on what bonds bear that have not cracked: more for a short time [1]."""
     response: FloatArray = field(default_factory=lambda: np.zeros((0, 0)))
@@ -119,13 +127,27 @@ class BondGraph:
             forces = forces * (self.evened / self.peaks(points))[:, None]
         wrench = np.einsum("cij,cj->i", wrenches, forces)
         loads = self.ratios((self.response @ wrench).reshape(-1, 6))
-        return loads + self._local(points, forces) if self.apart else loads
+        return loads + self._local(points, forces) if self.local else loads
 
     def _local(self, points: FloatArray, forces: FloatArray) -> FloatArray:
-        """Return the loads by the peaks round contacts, which break a part as they do the whole [1], shape (m,)."""
+        """Return the loads by the peaks round contacts, which break it as they do the whole [1], shape (m,)."""
+        apart = np.linalg.norm(points[:, None] - self.rims, axis=2).min(axis=1, initial=np.inf)
+        weaker = np.where(apart < RIM * self.bent, 1 / self.rim_strength, 1.0)
         nearest = np.linalg.norm(self.centres - points[:, None], axis=2).argmin(axis=1)
-        pressed = np.bincount(nearest, np.linalg.norm(forces, axis=1), len(self.nodes))
-        return self.evened * pressed[self.bonds].max(axis=1) * self.bending_strength / self.strengths
+        pressed = np.bincount(nearest, weaker * np.linalg.norm(forces, axis=1), len(self.nodes))
+        loads = self.evened / self.hardening * pressed[self.bonds].max(axis=1)
+        return np.where(self.cracked, 0.0, loads)
+
+    @property
+    def local_peak(self) -> float:
+        """Greatest load of a bond by the peak round a contact of a newton [1/N]."""
+        return self.evened / (self.hardening * self.rim_strength) if self.local else 0.0
+
+    @property
+    def bent(self) -> float:
+        """Length in which a shell bends at an edge or round a load [m]."""
+        radius = float(np.prod(self.semi_axes)) ** (1 / 3)
+        return (radius * self.thickness) ** 0.5 / (12 * (1 - self.poisson_ratio**2)) ** 0.25
 
     def peaks(self, points: FloatArray) -> FloatArray:
         """Return the greatest load of any bond by each newton that presses at a point alone and for long [1/N], (c,).
@@ -194,8 +216,21 @@ class BondGraph:
             cracked=self.cracked | broken,
             opened=self.opened | broken,
             damaged=True,
+            rims=np.concatenate([self.rims, self._edges(broken & ~self.cracked)]),
+            rim_strength=weakening,
         )
-        return cracked.without(broken & self.cracked if self.membrane_strength else broken)
+        if not self.membrane_strength:
+            return cracked.without(broken)
+        return cracked.with_local_peaks(weakening).without(broken & self.cracked)
+
+    def _edges(self, chosen: BoolArray) -> FloatArray:
+        """Return points along the common edges of the ``chosen`` bonds, shape (m,), shape (r, 3) [m]."""
+        first, second = self.bonds[chosen].T
+        edge = cross(self.normals[first] + self.normals[second], self.centres[second] - self.centres[first])
+        edge /= np.linalg.norm(edge, axis=1)[:, None]
+        middle = (self.centres[first] + self.centres[second]) / 2
+        along = np.linspace(-0.5, 0.5, ALONG)[:, None] * edge[:, None] * self.widths[chosen][:, None, None]
+        return (middle[:, None] + along).reshape(-1, 3)
 
     def without(self, gone: BoolArray) -> BondGraph:
         """Return the graph without the bonds that are ``gone``, shape (m,)."""
@@ -217,15 +252,15 @@ class BondGraph:
         chosen[pieces] = True
         return chosen[self.bonds[:, 0]] | chosen[self.bonds[:, 1]]
 
-    def fallen_apart(self, weakening: float) -> BondGraph:
-        """Return it as a part of a shell that has fallen apart, weaker by a factor at the tips of cracks [1].
+    def with_local_peaks(self, weakening: float) -> BondGraph:
+        """Return it as a cracked shell, or a part of one, weaker by a factor at the tips of cracks [1].
 
         The strengths of the whole stand for the peak round a contact. Elsewhere bonds bear what the material does.
         """
-        if self.apart:
+        if self.local:
             return self
         strengths = self.bending_strength * np.where(self.weakened, weakening, 1.0)
-        return replace(self, strengths=strengths, apart=True)
+        return replace(self, strengths=strengths, local=True)
 
     def joined(self, chosen: BoolArray) -> list[tuple[int, int]]:
         """Return the numbers of the pieces that the ``chosen`` bonds, shape (m,), join."""

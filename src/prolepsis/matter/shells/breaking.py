@@ -8,7 +8,7 @@ go on as bodies of their own, which may break again.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -23,8 +23,9 @@ from prolepsis.matter.shells.dents import ShellDents
 from prolepsis.matter.shells.fragment import Fragment, calm_force
 from prolepsis.matter.shells.parts import Shell
 from prolepsis.matter.shells.reach import would_bear, would_go_in
+from prolepsis.matter.shells.seam import begun_seam
 from prolepsis.matter.shells.slow_cracks import SlowCracks
-from prolepsis.matter.shells.yielding import ShellPadding
+from prolepsis.matter.shells.yielding import ShellPadding, pressing_on
 from prolepsis.scene.kind import Controller
 from prolepsis.scene.running import MAX_STEP, Running
 
@@ -60,8 +61,6 @@ STEADY_TIME = 3.0e-3
 """... nothing is about to touch: it is farther away than the fastest motion goes in this time, three ticks [s] ..."""
 STEADY_LOAD = 0.8
 """... and no bond bears more than this part of its strength [1]."""
-FORCE_ROWS = np.arange(3)
-"""Rows of the normal and the two tangential forces of a contact, from its first one."""
 
 
 class Breaking(Controller):
@@ -97,6 +96,8 @@ class Breaking(Controller):
         )
         whole = Fragment(body=thing.name, graph=graph, origin=np.zeros(3), calm=calm_force(graph))
         whole.slow = SlowCracks.of(quantities)
+        self._toughness = math.sqrt(quantities["youngsModulus"] * quantities.get("fractureEnergy", 0.0))
+        """Stress intensity at which a crack runs [Pa m^0.5]; 0 if it is not known."""
         self.fragments = [whole]
         self.intact = True
         self.load = 0.0
@@ -193,6 +194,7 @@ class Breaking(Controller):
                 fragment.total = total
                 detached += self._check(state, body, fragment)
         self._fresh = False
+        detached += self._part_at_seams(state, totals)
         if self.intact and self._dents:
             self._steady = False
             through = self._dents.grow(state)
@@ -214,11 +216,8 @@ class Breaking(Controller):
 
     def end_tick(self, state: Running) -> None:
         """Tell load, force and how far it is pressed in."""
-        for name, value in (
-            ("load", self._reached or self.load),
-            ("force", self.force),
-            ("pressed_in", self.pressed_in),
-        ):
+        told = {"load": self._reached or self.load, "force": self.force, "pressed_in": self.pressed_in}
+        for name, value in told.items():
             state.set_attribute(self.thing.name, name, value)
 
     def _compare(self, state: Running, totals: dict[int, float]) -> None:
@@ -281,14 +280,40 @@ class Breaking(Controller):
         if not made.changed:
             return []
         self._changed = True
+        broken, parts = list(made.broken), made.parts
         if made.broken and not fragment.graph.cracked.any() and self.intact:
             self._reached = would_bear(state, self._number, float(first @ pressing.normal / pressing.normal.sum()))
-        fragment.set(made.parts)
+            if self._toughness and len(parts) == 1:
+                # A crack runs while the force falls to what the dent bears.
+                forces = (first + made.shares) / 2 * pressing.normal
+                fragment.seam = seam = begun_seam(state, self.thing, pressing, forces, parts[0], self._toughness)
+                if seam:
+                    cracked = seam.cracked(parts[0], self._cracking.weakening)
+                    broken += parts[0].joined(cracked.cracked & ~parts[0].cracked)
+                    parts = (cracked.settled(pressing.points, made.shares[:, None] * pressing.forces),)
+        fragment.set(parts)
         if self.intact:
             eased, borne = made.shares < 1, made.shares * pressing.normal
             self._dents.begin(state, pressing.numbers[eased], borne[eased], self._contact.stiffness)
             self._contact.update(state, self._pressed_most, self._damping())
-        return self._detached(made.broken, float((first * pressing.normal).max()))
+        return self._detached(broken, float((first * pressing.normal).max()))
+
+    def _part_at_seams(self, state: Running, totals: Mapping[int, float]) -> list[Happening]:
+        """Let fragments fall in two whose seams what presses on them draws or bends open."""
+        detached: list[Happening] = []
+        for body, fragment in self._watched.items():
+            graph, seam = fragment.graph, fragment.seam
+            if seam is None or fragment.parts or not totals[body] or not seam.across(graph).any():
+                continue
+            pressing = self._pressing(state, body, fragment)
+            opens = seam.opens(graph, pressing.points, pressing.forces, self._toughness)
+            if opens >= 1:
+                crossed = seam.across(graph)
+                self.pressed_in = max(self.pressed_in, opens)
+                detached += self._detached(graph.joined(crossed & ~graph.cracked), float(pressing.normal.max()))
+                fragment.set(graph.without(crossed).fragments())
+                self._changed = True
+        return detached
 
     def _easing(self, state: Running, pressing: Pressing) -> Callable[[float | None], FloatArray]:
         """Return what tells the shares of forces that a shell bears, cracked with a relief or before that (None)."""
@@ -337,25 +362,7 @@ class Breaking(Controller):
 
     def _pressing(self, state: Running, body: int, fragment: Fragment) -> Pressing:
         """Return what presses on a fragment."""
-        contact = state.data.contact
-        found = [
-            (k, 1.0 if second == body else -1.0)
-            for k, first, second, _ in state.normal_forces()
-            if body in (first, second)
-        ]
-        numbers = np.array([number for number, _ in found])
-        sign = np.array([sign for _, sign in found])
-        local = state.data.efc_force[contact.efc_address[numbers][:, None] + FORCE_ROWS]
-        force = np.einsum("cij,ci->cj", contact.frame[numbers].reshape(-1, 3, 3), local)
-        rotation = state.data.xmat[body].reshape(3, 3)
-        share = self.padding.shares(state, numbers) if self.intact else 1.0
-        points = self.padding.points(state, numbers) if self.intact else contact.pos[numbers]
-        return Pressing(
-            numbers=numbers,
-            points=(points - state.data.xpos[body]) @ rotation + fragment.origin,
-            forces=(share * sign)[:, None] * force @ rotation,
-            normal=local[:, 0],
-        )
+        return pressing_on(state, body, fragment.origin, self.padding if self.intact else None)
 
     def _detached(self, broken: Sequence[tuple[int, int]], force: float) -> list[Happening]:
         return [detachment(self.index, self.pieces[a], self.pieces[b], force) for a, b in broken]
@@ -377,10 +384,12 @@ class Breaking(Controller):
             state.split(fragment.body, groups + firm)
             self.intact = False
             for part, group in zip(parts, groups, strict=True):
-                part = part.fallen_apart(self._cracking.weakening)
+                part = part.with_local_peaks(self._cracking.weakening)
                 lead = state.scene.things[group[0]].name
                 calm = LIGHT if len(part.bonds) else math.inf
-                new.append(Fragment(body=lead, graph=part, origin=part.centres[0].copy(), calm=calm))
+                new.append(
+                    Fragment(body=lead, graph=part, origin=part.centres[0].copy(), calm=calm, seam=fragment.seam)
+                )
             come_out(state, groups, dented)
         self.fragments = new
 

@@ -11,6 +11,7 @@ import numpy as np
 from prolepsis.geometry.shape import FloatArray
 from prolepsis.matter.shells.bond_graph import BondGraph
 from prolepsis.matter.shells.cascade import Pressing, onset
+from prolepsis.matter.shells.seam import Seam
 from prolepsis.matter.shells.slow_cracks import SlowCracks
 
 BETWEEN_SAMPLES = 0.9
@@ -43,6 +44,8 @@ class Fragment:
     """All contact forces in the scene at the last full check [N], as MuJoCo lists them."""
     slow: SlowCracks = field(default_factory=SlowCracks)
     """What its bonds have borne."""
+    seam: Seam | None = None
+    """The crack that an edge has made."""
     whole: float = 0.0
     """Greatest load of a bond that has not cracked, when it was last looked at [1]."""
 
@@ -106,7 +109,8 @@ def calm_force(graph: BondGraph) -> float:
     points = np.concatenate([graph.centres, graph.centres[graph.bonds].mean(axis=1)])
     wrenches = np.moveaxis(graph.wrenches_per_force(points), 0, 1).reshape(6 * len(graph.nodes), -1)
     components = (graph.response @ wrenches).reshape(len(graph.bonds), 6, len(points), 3)
-    return float(BETWEEN_SAMPLES / graph.ratios(np.linalg.norm(components, axis=3).transpose(2, 0, 1)).max())
+    far = float(graph.ratios(np.linalg.norm(components, axis=3).transpose(2, 0, 1)).max())
+    return BETWEEN_SAMPLES / (far + graph.local_peak)
 
 
 def _greatest(loads: FloatArray) -> float:

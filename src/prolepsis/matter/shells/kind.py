@@ -30,6 +30,7 @@ OF_A_SHELL = (
     "shellMembraneStrength",
     "shellMembraneStretch",
     "shellThickness",
+    "fractureEnergy",
     "pieceCount",
     "poissonRatio",
 )

@@ -10,6 +10,7 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.log.things import Thing
+from prolepsis.matter.shells.cascade import Pressing
 from prolepsis.matter.shells.contact import NEAR, ShellContact, stiffen
 from prolepsis.matter.shells.padding import Padding, concentration, padding_of, spread_under
 from prolepsis.scene.running import Running
@@ -18,6 +19,8 @@ DAMPING_RATIO = 0.01
 """Damping of contact with padding [1]: it loses energy by a law of its own."""
 SOFTEST = 1.0
 """Stiffness of such a contact before it carries anything [N/m]."""
+FORCE_ROWS = np.arange(3)
+"""Rows of the normal and the two tangential forces of a contact, from its first one."""
 HERTZ = 0.4
 """Mean square of the distance of the pressure from its middle over the squared radius of a contact with a plate [1]."""
 
@@ -171,3 +174,31 @@ class ShellPadding:
     def _radius(self, height: float) -> float:
         """Return the mean radius of the shell where its middle is at a height over what it touches [m]."""
         return float(np.prod(self._semi_axes)) / height**2
+
+
+def pressing_on(state: Running, body: int, origin: FloatArray, padding: ShellPadding | None) -> Pressing:
+    """Return what presses on a part of a shell.
+
+    Args:
+        state: The running scene.
+        body: Number of its body.
+        origin: Place of the body's frame in the shell's frame [m], shape (3,).
+        padding: What is soft there, if it is the whole.
+    """
+    contact = state.data.contact
+    found = [
+        (k, 1.0 if second == body else -1.0) for k, first, second, _ in state.normal_forces() if body in (first, second)
+    ]
+    numbers = np.array([number for number, _ in found])
+    sign = np.array([sign for _, sign in found])
+    local = state.data.efc_force[contact.efc_address[numbers][:, None] + FORCE_ROWS]
+    force = np.einsum("cij,ci->cj", contact.frame[numbers].reshape(-1, 3, 3), local)
+    rotation = state.data.xmat[body].reshape(3, 3)
+    share = padding.shares(state, numbers) if padding is not None else 1.0
+    points = padding.points(state, numbers) if padding is not None else contact.pos[numbers]
+    return Pressing(
+        numbers=numbers,
+        points=(points - state.data.xpos[body]) @ rotation + origin,
+        forces=(share * sign)[:, None] * force @ rotation,
+        normal=local[:, 0],
+    )
