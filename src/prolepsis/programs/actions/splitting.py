@@ -1,4 +1,4 @@
-"""Splitting: what is cracked is held out by one hand, taken by the other, bent open below and drawn apart."""
+"""Splitting: what is cracked is held out by one hand, taken by the other, drawn apart and bent open below."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ from prolepsis.scene.extent import extent_along, support
 from prolepsis.scene.scene import Scene, reference_of
 from prolepsis.terms.errors import PlanError
 
-OPENING_TIME, PARTING_TIME = 1.0, 1.0
-"""Bending open and drawing apart take so long [s]."""
+PARTING_TIME = 1.5
+"""Drawing apart and bending open, at once, take so long [s]."""
 
 _Taken = Generator[tuple[Command, ...], Sense, tuple[HandPose, Sense]]
 
@@ -50,7 +50,7 @@ def _can_split(
 def split(
     scene: Scene, sense: Sense, *, hand: Thing, other: Thing, object: Thing, force: float, angle: float, distance: float
 ) -> Behaviour:
-    """Hold out to the other hand what a hand holds by one end; bend it open below and draw the ends apart."""
+    """Hold out to the other hand what a hand holds by one end; draw the ends apart and bend it open below."""
     reference = reference_of(scene, hand)
     holding(hand, object, sense)
     seen = as_seen(object, sense)
@@ -99,19 +99,16 @@ def _draw_apart(
     angle: float,
     distance: float,
 ) -> Behaviour:
-    """Turn both ends about the top of the middle, so that it opens below; then move them away from each other."""
+    """Move both ends away from each other, and turn them about the top of the middle meanwhile: it opens below."""
     up = np.array([0.0, 0.0, 1.0])
     top = held.middle + support(as_seen(object, sense), up) * up
-    opening = np.array([[share, 0.0] for share, _ in least_jerk(OPENING_TIME)])
-    parting = np.array([[1.0, share] for share, _ in least_jerk(PARTING_TIME)])
-    shares = np.concatenate([opening, parting])
+    shares = [share for share, _ in least_jerk(PARTING_TIME)]
 
     def course(start: HandPose, side: float) -> tuple[FloatArray, FloatArray]:
         # What is below the axis moves to the hand's own side.
         axis = side * np.cross(held.across, up)
         steps = [
-            start.moved(top, axis, -angle / 2 * turned, side * apart * distance / 2 * held.across)
-            for turned, apart in shares.tolist()
+            start.moved(top, axis, -angle / 2 * share, side * share * distance / 2 * held.across) for share in shares
         ]
         rotations = [angles_of(reference, from_axes(step.rotation)) for step in steps]
         return np.array([step.position for step in steps]), np.array(rotations)

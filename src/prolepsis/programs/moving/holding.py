@@ -12,10 +12,10 @@ from prolepsis.geometry.rotations import inverse, matrix, product, turned, wrapp
 from prolepsis.geometry.shape import Quaternion, Triple, triple
 from prolepsis.log.things import Thing
 from prolepsis.programs.moving.following import follow, go
-from prolepsis.programs.moving.grasping import as_seen
+from prolepsis.programs.moving.grasping import as_seen, longest_axis
 from prolepsis.programs.moving.profile import PEAK_SPEED, least_jerk
 from prolepsis.robots.commands import ActionFailedError, Behaviour, HandSense, JointPath, Sense, no_joint_path
-from prolepsis.scene.extent import middle, support
+from prolepsis.scene.extent import extent_along, middle, support
 from prolepsis.terms.errors import PlanError
 
 PITCHES = (20.0, 30.0, 10.0, 45.0, 0.0, 60.0)
@@ -28,6 +28,10 @@ CLEAR = 2.0e-3
 """So far above the position it is looked whether anything but what is held would touch something [m]."""
 FACING = math.radians(80.0)
 """The hand points at most this far away from where its shoulder sees the spot."""
+LONGER = 1.1
+"""What is so many times as long as broad has a middle to be hit at [1]."""
+LEVEL = 0.7
+"""So much of its longest axis is level in the hand, at least [1]."""
 STRAIGHT_SPEED = 0.3
 """Of a free hand's straight path [m/s, rad/s]."""
 
@@ -83,8 +87,8 @@ def spots(against: Thing, part: str) -> list[Spot]:
 def hand_poses(hand: HandSense, held: Thing, spot: Spot, reference: Quaternion) -> Iterator[tuple[Triple, Triple]]:
     """Yield poses of a hand at which the thing it holds touches a spot from above, natural ones first.
 
-    Where there is an edge, the hand points along it, so that its fingers are on both sides. A hand that flies stays
-    turned as it is.
+    Where there is an edge, it goes across what is held, which may crack round its middle; with what is as long as broad
+    the fingers are on both sides of it. A hand that flies stays turned as it is.
     """
     if hand.arm is None:
         yield position_of(hand, held, spot.point, hand.orientation), hand.rotation
@@ -92,13 +96,23 @@ def hand_poses(hand: HandSense, held: Thing, spot: Spot, reference: Quaternion) 
     bearing = hand.arm.bearing(spot.point)
     yaws = [bearing]
     if any(spot.along):
-        heading = math.atan2(spot.along[1], spot.along[0]) - yaw_of(reference)
+        heading = math.atan2(spot.along[1], spot.along[0]) - yaw_of(reference) + _across(hand, held)
         around = [wrapped(heading + half - bearing) for half in (0.0, math.pi)]
         yaws = [bearing + away for away in sorted(around, key=abs) if abs(away) <= FACING]
     for yaw in yaws:
         for pitch in PITCHES:
             rotation = (yaw, math.radians(pitch), hand.rotation[2])
             yield position_of(hand, held, spot.point, turned(reference, rotation)), rotation
+
+
+def _across(hand: HandSense, held: Thing) -> float:
+    """Return the angle from an edge to a hand that points so that the longest of what it holds is across it [rad]."""
+    ahead, aside, _ = matrix(hand.orientation).T @ longest_axis(held)
+    longest = max(abs(ahead), abs(aside))
+    lengths = sorted(extent_along(held, axis) for axis in matrix(held.orientation).T)
+    if lengths[-1] < LONGER * lengths[-2] or longest < LEVEL:
+        return 0.0
+    return math.pi / 2 - math.atan2(aside, ahead)
 
 
 def holding(hand: Thing, held: Thing, sense: Sense) -> HandSense:

@@ -25,7 +25,7 @@ AWAY = (0.0, 20.0, -20.0, 40.0, -40.0)
 """The line through both hands is tried across the robot's front, and turned by these [degrees]."""
 LIFTED = (0.0, 0.05, -0.03)
 """Heights over where the thing is that are tried [m]."""
-SHORTS = tuple(0.001 * k for k in range(12, 37, 2))
+SHORTS = tuple(0.001 * k for k in range(16, 37, 2))
 """How far from its middle the second hand's pads are, the nearest first [m]."""
 
 
