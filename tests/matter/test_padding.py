@@ -129,6 +129,8 @@ def test_an_egg_that_opens_on_a_towel_stays_there_and_throws_nothing_up() -> Non
     carriers = {log.carrier[-1, i] for i, thing in enumerate(log.things) if "Piece" in thing.roles}
     for moving in (*carriers, log.index("soft1")):
         height = log.poses[first:, moving, 2]
-        # What lies loose under the rest may be tilted, by half of its width of 14 mm.
-        assert height.max() < height[0] + 0.007
+        # What lies loose under the rest may be tilted, at most till it stands on its edge.
+        corners = np.array([v for geom in log.things[moving].shape.geoms if geom.type == "mesh" for v in geom.vertices])
+        reach = np.linalg.norm(corners, axis=1).max() if len(corners) else 0.0
+        assert height.max() < height[0] + reach + 1e-4
         assert height.min() > 0.004

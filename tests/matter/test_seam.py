@@ -68,12 +68,12 @@ def test_it_runs_farther_the_harder_the_blow_and_is_held_near_it() -> None:
     arcs = [arc_after(force, RADIUS, THICKNESS, 0.345, TOUGHNESS) for force in (5.0, 20.0, 35.0, 56.0)]
     assert arcs == sorted(arcs) and arcs[0] < 0.2 < arcs[1]
     # Where it stops the crack is just borne: two cracks in a stress that falls as 1 / s^2, in closed form.
-    closed = 2.047 * math.sqrt(RADIUS * THICKNESS) / (12 * (1 - 0.345**2)) ** 0.25
+    closed: float = 2.047 * math.sqrt(RADIUS * THICKNESS) / (12 * (1 - 0.345**2)) ** 0.25
     end = RADIUS * arcs[2]
     drawn = 35.0 * RADIUS / (2 * math.pi * THICKNESS)
-    stress = np.linspace(closed, end, 200_001)[1:-1]
-    weight = np.sqrt((stress - closed) / (end - stress))
-    found = np.trapezoid(drawn / stress**2 * weight, stress) / math.sqrt(math.pi * (end - closed) / 2)
+    away: FloatArray = np.linspace(closed, end, 200_001)[1:-1]
+    weighted: FloatArray = drawn / away**2 * np.sqrt((away - closed) / (end - away))
+    found = float(np.trapezoid(weighted, away)) / math.sqrt(math.pi * (end - closed) / 2)
     assert found == pytest.approx(TOUGHNESS, rel=0.03)
 
 

@@ -48,6 +48,7 @@ def picked() -> Projection:
     return project(EXAMPLES / "own_jaw.toml")
 
 
+@pytest.mark.filterwarnings("ignore:no, but contacts is told of parts")
 def test_a_jaw_grasps_lifts_and_holds_a_block(picked: Projection) -> None:
     assert outcomes(picked) == {"grasp": "done", "reach": "done", "lift": "done", "hold": "done"}
     assert picked.ask(

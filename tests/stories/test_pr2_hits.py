@@ -16,6 +16,7 @@ def hit(speed: float) -> Projection:
     return project(EXAMPLES / "pr2_hit.toml", Speed=speed)
 
 
+@pytest.mark.filterwarnings("ignore:near its threshold")
 def test_a_gentle_blow_leaves_the_egg_whole_and_held() -> None:
     run = hit(0.27)
     assert run.ask(

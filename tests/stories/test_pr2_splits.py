@@ -9,7 +9,9 @@ import pytest
 from prolepsis import Projection, project
 
 # Blows are as weak as just cracks the shell, and an egg that turned in the fingers is lost: both is said.
-pytestmark = pytest.mark.filterwarnings("ignore:near its threshold", "ignore:no, but the plan ended at .* splitting")
+pytestmark = pytest.mark.filterwarnings(
+    "ignore:near its threshold", "ignore:no, but the plan ended at .* splitting", "ignore:no, but hitting.* not_reached"
+)
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

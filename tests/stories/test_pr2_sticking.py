@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from prolepsis import project
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -19,6 +21,7 @@ def test_wet_shell_goes_up_with_the_gripper_and_falls_off_later() -> None:
     assert all("piece" in str(answer["P"]) for answer in carried)
 
 
+@pytest.mark.filterwarnings("ignore:near its threshold")
 def test_a_hand_that_closes_on_pieces_stays_stable() -> None:
     """In substeps of a millisecond the solver came to no end at a fingertip."""
     crushed = project(EXAMPLES / "pr2_stick.toml", settings={"Crush": "47 N", "Gentle": "1 N"})
