@@ -58,7 +58,7 @@ class Impacts:
     def step(self, model: Any, data: Any, softening: Softening, *, hits: bool) -> bool:
         """Make one substep, in which things may hit each other or slide if ``hits``; return whether some do hit."""
         mujoco.mj_step1(model, data)
-        if softening.any_pieces or softening.elastic:
+        if softening.applies:
             softening.soften(model, data)
         hit = bool(hits and data.ncon) and self._meet(model, data)
         mujoco.mj_step2(model, data)

@@ -158,7 +158,7 @@ def simulate(
         while left:
             # Physics step.
             made, hit = together, False
-            if fast or state.softening.any_pieces or state.softening.elastic:
+            if fast or state.softening.applies:
                 made = 0
                 # A blow is over within a substep, and recorded by itself.
                 while made < together and left > made and not hit:

@@ -54,6 +54,11 @@ class Softening:
         self.any_pieces = bool(pieces.any())
         self.elastic = bool((model.pair_solimp[:, 0] < HARD_SOLIMP[0]).any()) if model.npair else False
 
+    @property
+    def applies(self) -> bool:
+        """Whether there is anything to do in a substep."""
+        return self.any_pieces or self.elastic
+
     def begin(self, data: Any) -> None:
         """Let pieces that have just come about count as squeezed: a moment ago they were pressed."""
         self.until = float(data.time) + LINGERING
@@ -69,7 +74,7 @@ class Softening:
     def forward(self, model: Any, data: Any) -> None:
         """Find contacts and forces as they are now."""
         mujoco.mj_forward(model, data)
-        if (self.any_pieces or self.elastic) and self.soften(model, data):
+        if self.applies and self.soften(model, data):
             mujoco.mj_fwdConstraint(model, data)
 
     def soften(self, model: Any, data: Any) -> bool:

@@ -147,7 +147,7 @@ class BondGraph:
     def bent(self) -> float:
         """Length in which a shell bends at an edge or round a load [m]."""
         radius = float(np.prod(self.semi_axes)) ** (1 / 3)
-        return (radius * self.thickness) ** 0.5 / (12 * (1 - self.poisson_ratio**2)) ** 0.25
+        return bending_length(radius, self.thickness, self.poisson_ratio)
 
     def peaks(self, points: FloatArray) -> FloatArray:
         """Return the greatest load of any bond by each newton that presses at a point alone and for long [1/N], (c,).
@@ -296,6 +296,12 @@ class BondGraph:
             opened=self.opened[inside],
             response=np.zeros((0, 0)),
         )
+
+
+def bending_length(radius: float, thickness: float, poisson_ratio: float) -> float:
+    """Return the length in which a shell of a radius [m] and thickness [m] bends [m] (Reissner 1946)."""
+    bent: float = (radius * thickness) ** 0.5 / (12 * (1 - poisson_ratio**2)) ** 0.25
+    return bent
 
 
 def _response(graph: BondGraph) -> FloatArray:

@@ -19,7 +19,7 @@ import numpy as np
 from prolepsis.geometry.rotations import cross, matrix
 from prolepsis.geometry.shape import BoolArray, FloatArray
 from prolepsis.log.things import Thing
-from prolepsis.matter.shells.bond_graph import BondGraph
+from prolepsis.matter.shells.bond_graph import BondGraph, bending_length
 from prolepsis.matter.shells.cascade import Pressing
 from prolepsis.matter.shells.crushing_front import across
 from prolepsis.scene.nearby import distance_to
@@ -58,7 +58,7 @@ class Seam:
     radius: float
     """Mean radius of the section [m]."""
     arc: float
-    """The crack reaches so far to either side of where it began [rad]; all round at pi."""
+    """The crack reaches so far to either side of where it began [rad]."""
 
     def across(self, graph: BondGraph) -> BoolArray:
         """Return which bonds of a graph join what is on both sides, shape (m,)."""
@@ -83,7 +83,7 @@ class Seam:
         force, moment = self._resultants(graph, points, forces)
         wall = math.pi * self.radius * graph.thickness
         stress = force / (2 * wall) + moment / (wall * self.radius)
-        half = self.radius * min(self.arc, math.pi)
+        half = self.radius * self.arc
         bulge = math.sqrt(1 + BULGE * half**2 / (self.radius * graph.thickness))
         return stress * math.sqrt(math.pi * half) * bulge / toughness
 
@@ -186,8 +186,7 @@ def arc_after(force: float, radius: float, thickness: float, poisson_ratio: floa
         poisson_ratio: Of the shell [1].
         toughness: Fracture toughness [Pa m^0.5].
     """
-    bent = math.sqrt(radius * thickness) / (12 * (1 - poisson_ratio**2)) ** 0.25
-    closed, far = CLOSED * bent, radius * ARCS
+    closed, far = CLOSED * bending_length(radius, thickness, poisson_ratio), radius * ARCS
     drawn = force * radius / (2 * math.pi * thickness)
     ends = far[far > closed]
     intensity = drawn * np.sqrt(math.pi * (ends - closed) / 2) / (ends * np.sqrt(ends * closed))

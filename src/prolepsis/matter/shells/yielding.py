@@ -10,6 +10,7 @@ import numpy as np
 
 from prolepsis.geometry.shape import FloatArray, IntArray
 from prolepsis.log.things import Thing
+from prolepsis.matter.shells.bond_graph import bending_length
 from prolepsis.matter.shells.cascade import Pressing
 from prolepsis.matter.shells.contact import NEAR, ShellContact, stiffen
 from prolepsis.matter.shells.padding import Padding, concentration, padding_of, spread_under
@@ -165,7 +166,7 @@ class ShellPadding:
 
     def _share(self, padded: Padded) -> float:
         radius = self._radius(padded.height)
-        length = math.sqrt(radius * self._thickness / math.sqrt(12.0 * (1.0 - self._poisson_ratio**2)))
+        length = bending_length(radius, self._thickness, self._poisson_ratio)
         plate = HERTZ * radius * self._breaking_force / self._contact.stiffness
         patch = plate + spread_under(padded.padding, radius, padded.height, padded.depth)
         bent = concentration(patch, length) / concentration(plate, length)
